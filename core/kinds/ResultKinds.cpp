@@ -10,40 +10,11 @@
 #include "core/analysis/separability/SeparabilityJson.h"
 #include "core/analysis/transitions/TransitionsJson.h"
 #include "core/analysis/variation/VariationJson.h"
+#include "core/kinds/RecordingTotals.h"
 #include "core/kinds/SessionComparison.h"
 #include "core/pilot/PilotResults.h"
-#include "core/results/Describe.h"
 
 namespace tacto {
-
-namespace {
-
-using namespace describe;
-
-// Kinds with results that only a protocol assembles.
-
-ResultTraits recording(ResultKind kind, std::string_view name, Columns delivered) {
-    Columns columns{number("Duration", "duration_s", "s")};
-    columns.insert(columns.end(), delivered.begin(), delivered.end());
-    columns.push_back(number("Trains skipped", "trains_skipped"));
-    columns.push_back(number("Samples lost", "samples_lost"));
-    columns.push_back(number("Gaps in the recording", "gaps"));
-    return {.kind = kind,
-            .name = name,
-            .decisionRule = "A recording: nothing is judged.",
-            .tables = {facts("Totals", "", std::move(columns))}};
-}
-
-ResultTraits live() {
-    return recording(ResultKind::Live, "live",
-                     {number("Trains delivered", "trains_delivered"), number("Trains refused", "trains_refused")});
-}
-
-ResultTraits massager() {
-    return recording(ResultKind::Massager, "massager", {number("Bursts delivered", "bursts_delivered")});
-}
-
-}  // namespace
 
 const ResultTraits& resultTraits(std::string_view name) {
     static const ResultTraits kOther;
@@ -55,8 +26,8 @@ const ResultTraits& resultTraits(std::string_view name) {
                                                   loadSafetyKind(),
                                                   stimulatorCalibrationKind(),
                                                   sensorCalibrationKind(),
-                                                  live(),
-                                                  massager(),
+                                                  recordingKind(ResultKind::Live),
+                                                  recordingKind(ResultKind::Massager),
                                                   pilotThresholdsKind(),
                                                   pilotIdentificationKind(),
                                                   comparisonKind()};

@@ -75,6 +75,16 @@ ResultRecord<StrengthComparisonResult> describeComparison(LevelUnit unit) {
     return all;
 }
 
+ResultRecord<PresentedCondition> describePresented(LevelUnit unit) {
+    using P = PresentedCondition;
+    const bool current = unit == LevelUnit::Current;
+    ResultRecord<P> all;
+    all.shown(as(As::Condition, "Condition", "name"), &P::name);
+    all.shown({current ? "Level" : "Strength", std::string(nameOf(unit)), As::Number, current ? "mA" : ""}, &P::level);
+    all.shown(number("Interval", "interval_s", "s"), [](const P& presented) { return presented.interval.count(); });
+    return all;
+}
+
 /// The columns of a range row (PilotRecord.h).
 Columns rangeColumns(LevelUnit unit) {
     Columns all{as(As::YesNo, "The range is usable", "usable"), text("Why not", "reason"),
@@ -109,14 +119,15 @@ ResultRecord<ThresholdsFound> describeThresholds(LevelUnit unit) {
     return all;
 }
 
-/// Returns the columns of both units; a session fills only the columns of its own unit.
+/// Returns the columns of both units, those at the same place beside each other; a session fills only the columns of
+/// its own unit.
 template <class ColumnsOf>
 Columns ofBothUnits(ColumnsOf columnsOf) {
-    Columns both = columnsOf(LevelUnit::Current);
-    for (const auto& column : columnsOf(LevelUnit::Intensity)) {
-        if (std::ranges::find(both, column.at, &ResultColumn::at) != both.end()) continue;
-        const auto like = std::ranges::find(both, column.title, &ResultColumn::title);
-        both.insert(std::next(like), column);
+    const Columns currents = columnsOf(LevelUnit::Current), intensities = columnsOf(LevelUnit::Intensity);
+    Columns both = currents;
+    for (std::size_t i = 0; i < intensities.size(); ++i) {
+        const auto at = [&both](const ResultColumn& one) { return std::ranges::find(both, one.at, &ResultColumn::at); };
+        if (at(intensities[i]) == both.end()) both.insert(std::next(at(currents[i])), intensities[i]);
     }
     return both;
 }
@@ -133,6 +144,12 @@ Tables ofSession(const char* thresholds) {
 
 }  // namespace
 
+json presentedJson(const std::vector<PresentedCondition>& presented, LevelUnit unit) {
+    json all = json::array();
+    for (const auto& each : presented) all.push_back(describePresented(unit).write(each));
+    return all;
+}
+
 json thresholdsJson(const ThresholdsFound& found, LevelUnit unit) { return describeThresholds(unit).write(found); }
 
 ResultTraits pilotThresholdsKind() {
@@ -147,8 +164,7 @@ ResultTraits pilotThresholdsKind() {
 ResultTraits pilotIdentificationKind() {
     Tables tables = ofSession("thresholds");
     Tables own{rows("Presented levels", "presented",
-                    {as(As::Condition, "Condition", "name"), number("Level", "current_ma", "mA"),
-                     number("Strength", "intensity"), number("Interval", "interval_s", "s")})};
+                    ofBothUnits([](LevelUnit unit) { return describePresented(unit).columns(); }))};
     std::ranges::copy(identificationTables(), std::back_inserter(own));
     std::ranges::copy(vibrationTables("vibration"), std::back_inserter(own));
     own.push_back(sentences("Notes", "notes"));

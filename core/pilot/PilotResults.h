@@ -11,6 +11,7 @@
 #include "core/analysis/psychophysics/StrengthComparison.h"
 #include "core/analysis/psychophysics/TwoIntervalTrials.h"
 #include "core/analysis/statistics/Estimate.h"
+#include "core/pilot/PilotSettings.h"
 #include "core/results/ResultKind.h"
 #include "core/study/StudySettings.h"
 
@@ -34,6 +35,8 @@ struct ThresholdsFound {
 
 /// Levels are in `unit`, and their keys name the unit.
 [[nodiscard]] nlohmann::json thresholdsJson(const ThresholdsFound& found, LevelUnit unit);
+
+[[nodiscard]] nlohmann::json presentedJson(const std::vector<PresentedCondition>& presented, LevelUnit unit);
 
 [[nodiscard]] ResultTraits pilotThresholdsKind();
 [[nodiscard]] ResultTraits pilotIdentificationKind();

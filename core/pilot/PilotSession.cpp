@@ -7,6 +7,7 @@
 #include "core/analysis/psychophysics/PredictedFit.h"
 #include "core/base/JsonText.h"
 #include "core/pilot/PilotRecord.h"
+#include "core/pilot/PilotResults.h"
 
 namespace tacto {
 
@@ -117,11 +118,7 @@ Result<nlohmann::json> PilotSession::identificationResults() const {
     results["range"] = thresholds_.rangeJson();
     results["thresholds"] = thresholds_.toJson();
     results["drift"] = identification_.driftJson();
-    nlohmann::json presented = nlohmann::json::array();
-    for (const auto& each : identification_.presented())
-        presented.push_back(
-            {{"name", each.name}, {nameOf(stage_.settings().unit), each.level}, {"interval_s", each.interval.count()}});
-    results["presented"] = std::move(presented);
+    results["presented"] = presentedJson(identification_.presented(), stage_.settings().unit);
     if (stage_.settings().unit == LevelUnit::Intensity) {
         const auto vibration = judgeVibration(identification_.vibrations(), identification_.labels());
         if (!vibration) return failure(vibration);

@@ -142,6 +142,13 @@ public:
         });
     }
 
+    /// Adds all members of a nested record and their columns.
+    template <class Get, class Part>
+    void mergeShown(Get get, const ResultRecord<Part>& part) {
+        merge(std::move(get), part);
+        columns_.insert(columns_.end(), part.columns().begin(), part.columns().end());
+    }
+
     // The following functions add tables in reading order. A returned reference is valid until the next table is added.
 
     /// Adds a table of one record from the columns added since the last table.

@@ -94,27 +94,6 @@ ResultTable under(const std::string& place, ResultTable table) {
     return table;
 }
 
-Tables withBasis(Tables tables) {
-    tables.push_back(
-        facts("Known reference", "reference",
-              {number("Known load", "load_ohm", "ohm"), number("Read as", "measured_ohm", "ohm", "expanded_ohm"),
-               number("Deviation", "deviation_pct", "%", "expanded_uncertainty_pct"),
-               number("Allowed, ±", "allowed_pct", "%"), verdict(), text("Reason", "reason")},
-              Else::InTheReport));
-    tables.push_back(facts("Absolute reference", "absolute",
-                           {number("Deviation", "deviation_pct", "%", "expanded_uncertainty_pct"),
-                            number("Allowed, ±", "allowed_pct", "%"), verdict(), text("It read", "text")},
-                           Else::InTheReport));
-    tables.push_back(
-        rows("Instruments", "instruments",
-             {text("Role", "role"), text("Instrument", "name"), text("Serial", "serial"), text("Channel", "channel"),
-              tolerance("Gain, ±", "gain_pct", "%"), tolerance("Probe, ±", "probe_pct", "%"),
-              tolerance("Time base, ±", "timebase_ppm", "ppm"), text("As stated by", "stated_by")},
-             Else::InBoth));
-    tables.push_back(sentences("What it rests on", "rests_on", Else::InBoth));
-    return tables;
-}
-
 }  // namespace describe
 
 }  // namespace tacto

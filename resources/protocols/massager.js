@@ -24,14 +24,6 @@ function run(p) {
   const states = bench.watch(p.duration);
   bench.disarm();
 
-  const last = bench.live();
   report.figure("Roughness, pressure and amplitude", plot.timeline(states));
-  const totals = {
-    duration_s: bench.time - begin,
-    bursts_delivered: last.trains_delivered,
-    trains_skipped: last.trains_skipped,
-    samples_lost: last.samples_lost,
-    gaps: last.gaps,
-  };
-  return verdict(Object.assign({ verdict: null }, totals));
+  return verdict(bench.totals(begin));
 }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "core/analysis/statistics/StatisticsJson.h"
 #include "core/measure/InstrumentStatement.h"
 
 namespace tacto {
@@ -34,23 +33,18 @@ void ScopeSeen::add(const Capture& capture) {
     if (auto text = notStatedText(capture); !text.empty()) notStated_ = std::move(text);
 }
 
+InstrumentSeen instrumentOf(const DeviceIdentity& device) {
+    return {nameOf(device.role), device.name, device.serial, device.simulated};
+}
+
 nlohmann::json ScopeSeen::rows(const DeviceIdentity& scope) const {
     auto out = nlohmann::json::array();
+    auto instrument = instrumentOf(scope);
     for (const auto& [name, channel] : channels_) {
-        out.push_back({{"role", nameOf(Role::Oscilloscope)},
-                       {"name", scope.name},
-                       {"serial", scope.serial},
-                       {"simulated", scope.simulated},
-                       {"channel", name},
-                       {"unit", channel.unit},
-                       {"gain_pct", numberOrNull(100 * channel.gain)},
-                       {"offset", numberOrNull(channel.offset)},
-                       {"lsb", numberOrNull(channel.lsb)},
-                       {"probe_pct", numberOrNull(100 * channel.probe)},
-                       {"linearity", numberOrNull(channel.linearity)},
-                       {"timebase_ppm", numberOrNull(1e6 * timeBase_)},
-                       {"stamp_s", numberOrNull(stamp_s_)},
-                       {"stated_by", channel.statedBy}});
+        instrument.channel = {name,        channel.unit,        100 * channel.gain, channel.offset,
+                              channel.lsb, 100 * channel.probe, channel.linearity,  1e6 * timeBase_,
+                              stamp_s_,    channel.statedBy};
+        out.push_back(toJson(instrument));
     }
     return out;
 }

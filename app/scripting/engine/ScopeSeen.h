@@ -11,8 +11,12 @@
 
 #include "core/devices/Device.h"
 #include "core/measure/Capture.h"
+#include "core/results/ResultBasis.h"
 
 namespace tacto {
+
+/// Returns the device as instrument of a run.
+[[nodiscard]] InstrumentSeen instrumentOf(const DeviceIdentity& device);
 
 class ScopeSeen {
 public:
@@ -23,9 +27,8 @@ public:
     /// True if every record so far stated the tolerance of its time stamp; true before the first record.
     [[nodiscard]] bool stampsStated() const noexcept { return !std::isnan(stamp_s_); }
 
-    /// Returns a row per channel: {"name", "serial", "channel", "unit", "gain_pct", "offset", "lsb", "probe_pct",
-    /// "linearity", "timebase_ppm", "stamp_s", "stated_by"}: the largest value of all captures; null if one capture
-    /// does not state it.
+    /// Returns a row per channel of `scope`, with the largest value of all captures; null if one capture does not state
+    /// it.
     [[nodiscard]] nlohmann::json rows(const DeviceIdentity& scope) const;
     /// Returns sentences that say what the absolute voltage scale is based on, and what is not stated.
     [[nodiscard]] std::vector<std::string> restsOn() const;

@@ -335,11 +335,7 @@ void ScriptSession::addBasis(nlohmann::json& results) const {
     if (!results.is_object() || !scope || !scopeSeen_.any()) return;
     auto instruments = scopeSeen_.rows(scope->identity());
     for (const auto& device : devices.identities()) {
-        if (device.role == Role::Oscilloscope) continue;
-        instruments.push_back({{"role", nameOf(device.role)},
-                               {"name", device.name},
-                               {"serial", device.serial},
-                               {"simulated", device.simulated}});
+        if (device.role != Role::Oscilloscope) instruments.push_back(toJson(instrumentOf(device)));
     }
     results["instruments"] = std::move(instruments);
     results["rests_on"] = scopeSeen_.restsOn();

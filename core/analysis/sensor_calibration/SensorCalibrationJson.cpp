@@ -123,10 +123,7 @@ ResultRecord<KnownWeight> describeKnownWeight() {
     all.shown(number("Read as", "measured", "@unit", "expanded_uncertainty"), &K::measured);
     all.kept("expanded_uncertainty", &K::expanded);
     all.keptIfAny("unit", ifWeighed(symbolAt(&K::unit)));
-    all.shown(number("Deviation", "deviation_pct", "%", "expanded_uncertainty_pct"), &K::deviation_pct);
-    all.kept("expanded_uncertainty_pct", &K::expanded_pct);
-    all.shown(number("Allowed, ±", "allowed_pct", "%"), &K::allowed_pct);
-    all.shown(verdict(), &K::verdict);
+    all.mergeShown(std::identity(), referenceCheckRecord());
     all.kept("passed", [](const K& known) { return known.weighed ? Json(known.passed()) : Json(); });
     return all;
 }
@@ -281,11 +278,9 @@ std::optional<std::string> reasonOf(const FingertipScale& scale) {
 
 ResultRecord<FingertipScale> describeForce() {
     using F = FingertipScale;
-    const auto scale = describeScale();
     ResultRecord<F> all;
     all.kept("scale", [](const F&) { return Json(); });
-    all.merge(&F::found, scale);
-    for (const auto& column : scale.columns()) all.shown(column);
+    all.mergeShown(&F::found, describeScale());
     all.shown(text("Reason", "reason"));
     all.keptIfAny("reason", reasonOf);
     all.keptIfAny("unit", symbolAt(&F::unit));
@@ -355,10 +350,7 @@ Tables sensorTables() {
         rows("Slides", "slides", builtOnce<describeSlide>().columns(), Else::InTheTerminal),
         rows("Weights", "weights", builtOnce<describeWeighed>().columns(), Else::InBoth),
         facts("At rest, nothing touched", "rest", builtOnce<describeRest>().columns(), Else::InTheTerminal),
-        rows("Instruments", "instruments",
-             {text("Role", "role"), text("Instrument", "name"), text("Serial", "serial"),
-              as(As::YesNo, "Simulated", "simulated")},
-             Else::InBoth),
+        rows("Instruments", "instruments", instrumentColumns(), Else::InBoth),
         sentences("Warnings", "warnings"),
         sentences("Warnings of the force", "force.warnings")};
     std::ranges::copy(read, std::back_inserter(all));

@@ -15,6 +15,7 @@
 #include "core/base/Statistics.h"
 #include "core/base/Stream.h"
 #include "core/dsp/RoughnessChain.h"
+#include "core/results/ResultBasis.h"
 
 namespace tacto {
 
@@ -93,16 +94,11 @@ struct Slid {
 };
 
 /// The check of a known weight before other readings are trusted. NaN: not known.
-struct KnownWeight {
-    [[nodiscard]] bool passed() const noexcept { return verdict == "pass"; }
-
+struct KnownWeight : ReferenceCheck {
     bool weighed = false;  ///< false: there is no weight or no force sensor
     double mass_g = kNaN, reference_n = kNaN;
     double measured = kNaN, expanded = kNaN;  ///< in `unit`, less the reading at rest
     std::optional<StreamUnit> unit = {};
-    double deviation_pct = kNaN, expanded_pct = kNaN;
-    double allowed_pct = kNaN;
-    std::string_view verdict = "not evaluated";
     std::string reason = {};  ///< why it did not pass; empty if it passed or nothing was weighed
 };
 

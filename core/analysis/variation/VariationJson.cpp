@@ -221,11 +221,9 @@ struct ServedRange {
 
 ResultRecord<ServedRange> describeRange() {
     using R = ServedRange;
-    const auto served = describeServed();
     ResultRecord<R> all;
     all.shown(text("Amplitudes", "amplitudes"), &R::amplitudes);
-    all.merge(&R::predicted, served);
-    for (const auto& column : served.columns()) all.shown(column);
+    all.mergeShown(&R::predicted, describeServed());
     const auto of = [](auto get) { return [get](const R& range) { return get(range.predicted); }; };
     all.shown(number("Every pair 5 JND apart", "clearly_separable"), of(figure(&Variation::clearlySeparable)));
     all.shown(as(As::Share, "Right answers of the served", "accuracy"), of(median(&Variation::accuracy)));

@@ -5,10 +5,10 @@
 
 #include "app/scripting/host/bench/BenchCalls.h"
 #include "core/analysis/load_safety/LoadReading.h"
-#include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"
 #include "core/measure/CaptureFile.h"
 #include "core/measure/InstrumentStatement.h"
+#include "core/results/ResultBasis.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto::host::bench {
@@ -98,24 +98,23 @@ Result<Json> read(ScriptSession& session, double volts, double source_pct, doubl
     if (!zero) return failure(zero);
     const Reading reading = differenceOf(*high, *zero, source_pct);
     const double scale = 100 / volts;
-    const double off_pct = scale * (reading.value - volts);
-    const auto verdict = guardBandedName(off_pct, scale * reading.expanded, tolerance_pct);
+    AbsoluteCheck check;
+    check.reference_v = volts;
+    check.reference_u_pct = source_pct;
+    check.measured_v = reading.value;
+    check.expanded_v = reading.expanded;
+    check.deviation_pct = scale * (reading.value - volts);
+    check.expanded_pct = scale * reading.expanded;
+    check.allowed_pct = tolerance_pct;
+    check.verdict = guardBandedName(check.deviation_pct, check.expanded_pct, tolerance_pct);
     const auto lacking = notStatedText(high->capture);
-    std::string text = fmt::format("{:.4g} V of a reference source read as {:.4g} V", volts, reading.value);
-    if (std::isfinite(reading.expanded)) text += fmt::format(" ± {:.2g} V", reading.expanded);
-    text += fmt::format("; ± {:.3g} % are allowed: {}", tolerance_pct,
-                        std::isnan(reading.expanded) ? "not evaluated, since " + lacking : std::string(verdict));
-    Json out = {{"reference_v", volts},
-                {"reference_u_pct", source_pct},
-                {"measured_v", numberOrNull(reading.value)},
-                {"expanded_v", numberOrNull(reading.expanded)},
-                {"deviation_pct", numberOrNull(off_pct)},
-                {"expanded_uncertainty_pct", numberOrNull(scale * reading.expanded)},
-                {"allowed_pct", tolerance_pct},
-                {"verdict", verdict},
-                {"passed", verdict == "pass"},
-                {"text", text}};
-    session.scopeSeen().setAbsolute(text);
+    check.text = fmt::format("{:.4g} V of a reference source read as {:.4g} V", volts, reading.value);
+    if (std::isfinite(reading.expanded)) check.text += fmt::format(" ± {:.2g} V", reading.expanded);
+    check.text +=
+        fmt::format("; ± {:.3g} % are allowed: {}", tolerance_pct,
+                    std::isnan(reading.expanded) ? "not evaluated, since " + lacking : std::string(check.verdict));
+    Json out = toJson(check);
+    session.scopeSeen().setAbsolute(check.text);
     std::vector<Capture> shown;
     shown.push_back(std::move(high->capture));
     shown.push_back(std::move(zero->capture));
@@ -171,9 +170,8 @@ std::vector<HostFunction> absoluteReferenceFunctions() {
                  "disarmed: a gain error that voltage and current share does not show in a known load. The operator "
                  "connects the source (questions \"reference-source\" and \"reference-zero\"); a simulated bench does "
                  "it by itself.",
-         .returns =
-             "{ reference_v, measured_v, expanded_v, deviation_pct, expanded_uncertainty_pct, allowed_pct, verdict, "
-             "passed, text, captures }: verdict \"not evaluated\" where the oscilloscope does not state its accuracy.",
+         .members = absoluteMembers(),
+         .returns = " and captures: verdict \"not evaluated\" where the oscilloscope does not state its accuracy.",
          .errors = "Throws without an oscilloscope, for one that takes no record without a trigger, or when no "
                    "operator can answer.",
          .needs = Role::Oscilloscope,

@@ -5,8 +5,8 @@
 #include "app/scripting/engine/Arming.h"
 #include "app/scripting/host/bench/BenchCalls.h"
 #include "app/scripting/host/measure/Readings.h"
-#include "core/analysis/statistics/StatisticsJson.h"
 #include "core/analysis/statistics/Verdict.h"
+#include "core/results/ResultBasis.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto::host::bench {
@@ -14,67 +14,58 @@ namespace tacto::host::bench {
 namespace {
 
 /// Returns a sentence that says why a check did not pass.
-std::string whyNot(std::string_view verdict, const Json& check, double load, double tolerance_pct) {
-    const auto at = [&check](const char* key) { return check.value(key, Json()); };
-    const auto text = [&](const char* key, const char* missing) {
-        return at(key).is_number() ? fmt::format("{:.4g}", at(key).get<double>()) : std::string(missing);
-    };
-    if (at("measured_ohm").is_null()) {
+std::string whyNot(const KnownLoadCheck& check) {
+    if (std::isnan(check.measured_ohm))
         return fmt::format(
-            "the known-reference check was not evaluated: nothing was measured where {:.4g} ohm is connected", load);
-    }
-    if (at("expanded_ohm").is_null()) {
+            "the known-reference check was not evaluated: nothing was measured where {:.4g} ohm is connected",
+            check.load_ohm);
+    if (std::isnan(check.expanded_ohm))
         return fmt::format(
-            "the known-reference check was not evaluated: {} ohm was measured on {:.4g} ohm, and how well the "
+            "the known-reference check was not evaluated: {:.4g} ohm was measured on {:.4g} ohm, and how well the "
             "oscilloscope knows that is not stated",
-            text("measured_ohm", ""), load);
-    }
+            check.measured_ohm, check.load_ohm);
     return fmt::format(
-        "the known-reference check {}: {} ± {} ohm was measured where {:.4g} ohm is connected; {:.2g} % "
+        "the known-reference check {}: {:.4g} ± {:.4g} ohm was measured where {:.4g} ohm is connected; {:.2g} % "
         "of it is accepted, uncertainty included",
-        verdict == "fail" ? "failed" : "is indeterminate", text("measured_ohm", ""), text("expanded_ohm", ""), load,
-        tolerance_pct);
+        check.verdict == "fail" ? "failed" : "is indeterminate", check.measured_ohm, check.expanded_ohm, check.load_ohm,
+        check.allowed_pct);
 }
 
 }  // namespace
 
 /// Judges the reading: |reading - reference| + expanded uncertainty must be ≤ tolerance (science.md section 12).
 Result<Json> judgeReference(ScriptSession& session, const Json& reading, const KnownLoad& known) {
-    const auto [load, tolerance_pct, load_pct] = known;
-    const double measured = numberOr(reading, "load_ohm");
+    KnownLoadCheck check;
+    check.load_ohm = known.load_ohm;
+    check.measured_ohm = numberOr(reading, "load_ohm");
     // The resistor's tolerance is a rectangular distribution; 0.95 of its half-width covers 95 %.
-    const double expanded = std::hypot(numberOr(reading, "load_expanded_ohm"), 0.95 * load_pct / 100 * load);
-    const double off_pct = 100 * (measured / load - 1);
-    const auto verdict = guardBandedName(off_pct, 100 * expanded / load, tolerance_pct);
-    const bool passed = verdict == "pass";
-    const Json check = {{"load_ohm", load},
-                        {"measured_ohm", numberOrNull(measured)},
-                        {"expanded_ohm", numberOrNull(expanded)},
-                        {"deviation_pct", numberOrNull(off_pct)},
-                        {"expanded_uncertainty_pct", numberOrNull(100 * expanded / load)},
-                        {"allowed_pct", tolerance_pct},
-                        {"verdict", verdict},
-                        {"passed", passed}};
-    if (session.writer() != nullptr) {
-        auto& writer = *session.writer();
-        if (auto kept = writer.measurement(session.now(), "known-reference check", check); !kept) return failure(kept);
-        const auto withU = [](const Json& value, const Json& u, const char* unit) -> Json {
-            return {{"value", value}, {"expanded", u}, {"unit", unit}};
-        };
-        const Json row = {{"load_ohm", load},
-                          {"measured ± U", withU(check["measured_ohm"], check["expanded_ohm"], "ohm")},
-                          {"off ± U", withU(check["deviation_pct"], check["expanded_uncertainty_pct"], "%")},
-                          {"allowed_pct", tolerance_pct},
-                          {"verdict", verdict}};
-        auto shown = writer.reportItem(
-            session.now(), {{"kind", "table"},
-                            {"caption", "Known-reference check"},
-                            {"rows", Json::array({row})},
-                            {"columns", {"load_ohm", "measured ± U", "off ± U", "allowed_pct", "verdict"}}});
-        if (!shown) return failure(shown);
-    }
-    Json out = check;
-    out["reason"] = passed ? Json() : Json(whyNot(verdict, check, load, tolerance_pct));
+    check.expanded_ohm =
+        std::hypot(numberOr(reading, "load_expanded_ohm"), 0.95 * known.itsTolerance_pct / 100 * known.load_ohm);
+    check.deviation_pct = 100 * (check.measured_ohm / check.load_ohm - 1);
+    check.expanded_pct = 100 * check.expanded_ohm / check.load_ohm;
+    check.allowed_pct = known.tolerance_pct;
+    check.verdict = guardBandedName(check.deviation_pct, check.expanded_pct, check.allowed_pct);
+    if (!check.passed()) check.reason = whyNot(check);
+    const Json out = toJson(check);
+    if (session.writer() == nullptr) return out;
+    auto& writer = *session.writer();
+    Json measured = out;
+    measured.erase("reason");
+    if (auto kept = writer.measurement(session.now(), "known-reference check", measured); !kept) return failure(kept);
+    const auto withU = [&out](const char* value, const char* u, const char* unit) -> Json {
+        return {{"value", out[value]}, {"expanded", out[u]}, {"unit", unit}};
+    };
+    const Json row = {{"load_ohm", check.load_ohm},
+                      {"measured ± U", withU("measured_ohm", "expanded_ohm", "ohm")},
+                      {"off ± U", withU("deviation_pct", "expanded_uncertainty_pct", "%")},
+                      {"allowed_pct", check.allowed_pct},
+                      {"verdict", check.verdict}};
+    auto shown = writer.reportItem(session.now(),
+                                   {{"kind", "table"},
+                                    {"caption", "Known-reference check"},
+                                    {"rows", Json::array({row})},
+                                    {"columns", {"load_ohm", "measured ± U", "off ± U", "allowed_pct", "verdict"}}});
+    if (!shown) return failure(shown);
     return out;
 }
 
@@ -134,11 +125,10 @@ std::vector<HostFunction> referenceFunctions() {
                         number("of the load", "%", "the load's own tolerance").range(0, 100).otherwise(0)},
          .text = "Judges whether a known load reads as what it is, and records that: instruments that misread it can "
                  "judge nothing else.",
+         .members = knownLoadMembers(),
          .returns =
-             "{ load_ohm, measured_ohm, expanded_ohm, deviation_pct, expanded_uncertainty_pct, allowed_pct, verdict, "
-             "passed, reason }: verdict \"pass\" when |deviation| + U is allowed, \"fail\" when |deviation| - U is "
-             "not, "
-             "else \"indeterminate\"; \"not evaluated\" where nothing was measured or no uncertainty is stated. passed "
+             ": verdict \"pass\" when |deviation| + U is allowed, \"fail\" when |deviation| - U is not, else "
+             "\"indeterminate\"; \"not evaluated\" where nothing was measured or no uncertainty is stated. passed "
              "is true for a pass alone; reason is a sentence where it did not pass, else null.",
          .errors = "Throws when the session file cannot be written.",
          .call = host::bench::reference},

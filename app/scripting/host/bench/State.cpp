@@ -3,17 +3,13 @@
 #include <limits>
 
 #include "app/scripting/host/bench/BenchCalls.h"
+#include "core/kinds/RecordingTotals.h"
 
 namespace tacto::host::bench {
 
 Json devicesOf(ScriptSession& session) {
     Json out = Json::array();
-    for (const auto& device : session.bench().devices().identities()) {
-        out.push_back({{"role", nameOf(device.role)},
-                       {"name", device.name},
-                       {"serial", device.serial},
-                       {"simulated", device.simulated}});
-    }
+    for (const auto& device : session.bench().devices().identities()) out.push_back(toJson(instrumentOf(device)));
     return out;
 }
 
@@ -81,6 +77,13 @@ Result<Json> watch(ScriptSession& session, const Arguments& arguments) {
     return states;
 }
 
+Result<Json> totals(ScriptSession& session, const Arguments& arguments) {
+    const Telemetry now = session.bench().telemetry();
+    return toJson(RecordingTotals{toSeconds(session.now()) - arguments.number("begin"), now.trainsDelivered,
+                                  now.trainsRefused, now.trainsSkipped, now.samplesLost, now.gaps},
+                  session.bench().devices().massager ? ResultKind::Massager : ResultKind::Live);
+}
+
 Result<Json> exposure(ScriptSession& session, const Arguments&) { return session.worstExposure(); }
 
 Result<Json> time(ScriptSession& session, const Arguments&) { return Json(toSeconds(session.now())); }
@@ -143,6 +146,13 @@ std::vector<HostFunction> stateFunctions() {
          .returns = "List of what live() returns, for plot.timeline(); 2000 at most.",
          .errors = "Throws when the run is stopped or a device fails.",
          .call = host::bench::watch},
+        {.name = "totals",
+         .parameters = {number("begin", "s", "bench.time when the recording began").atLeast(0)},
+         .text = "What was delivered and lost in the whole run.",
+         .members = recordingKind(ResultKind::Live).members,
+         .returns = ", for verdict(); with a massager bursts_delivered in place of trains_delivered and "
+                    "trains_refused.",
+         .call = host::bench::totals},
         {.name = "exposure",
          .text = "The largest exposure seen in this run against each limit, at the ends of wait() and capture().",
          .returns =

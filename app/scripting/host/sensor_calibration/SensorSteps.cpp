@@ -58,7 +58,8 @@ std::string whyNot(const KnownWeight& check) {
 
 KnownWeight judgeWeight(const std::optional<WeightReading>& reading, const FingertipRest& rest,
                         const WeighingTolerances& known, double tolerance_pct) {
-    KnownWeight check{.allowed_pct = tolerance_pct};
+    KnownWeight check;
+    check.allowed_pct = tolerance_pct;
     if (!reading) return check;
     check.weighed = true;
     check.mass_g = reading->mass_g;
