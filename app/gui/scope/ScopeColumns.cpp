@@ -18,7 +18,7 @@ namespace tacto::gui {
 
 namespace {
 
-const QList<int> kFirstSizes{600, 200, 190};
+const QList<int> kFirstSizes{520, 280, 190};
 
 }  // namespace
 

@@ -161,6 +161,7 @@ void ScopeWorkspace::connectModel() {
         acquisition_->settingsChanged();
         say();
     });
+    connect(&model_, &ScopeModel::triggerUpperChosen, &controls_->acquisition(), &AcquisitionPanel::setUpper);
     connect(&model_, &ScopeModel::preTriggerChosen, &controls_->acquisition(), &AcquisitionPanel::setPreTrigger);
 }
 
@@ -425,6 +426,8 @@ PictureCaption ScopeWorkspace::caption() const {
     const auto& shown = model_.shown();
     const auto open = controller_.open();
     QStringList more{readoutText(model_.readout(), shown ? shown->capture->rate_hz : 0)};
+    if (shown && shown->source.isEmpty() && !shown->capture->untriggered)
+        more << tr("Trigger %1").arg(acquisition_->triggerText());
     more << table_->asLines() << controls_->mask().said();
     return captionOf(model_, open ? &open->about : nullptr, more);
 }

@@ -107,11 +107,38 @@ TEST_F(Scope, NonsenseInTheSettingsFallsBackToTheDefaults) {
     scope.hide();
     QSettings settings;
     settings.beginGroup("scope");
-    for (const auto* key :
-         {"mode",         "trigger/level", "trigger/preTrigger", "trigger/onCurrent", "record/length", "record/rate",
-          "record/volts", "record/amps",   "math/power",         "spectrum",          "persistence",   "panels",
-          "controls",     "time/left",     "time/perDivision",   "math/difference",   "average",       "readings",
-          "mask/volts",   "mask/amps",     "mask/time",          "fft/window",        "fft/log"}) {
+    for (const auto* key : {"mode",
+                            "trigger/level",
+                            "trigger/preTrigger",
+                            "trigger/onCurrent",
+                            "record/length",
+                            "record/rate",
+                            "record/volts",
+                            "record/amps",
+                            "math/power",
+                            "spectrum",
+                            "persistence",
+                            "panels",
+                            "controls",
+                            "time/left",
+                            "time/perDivision",
+                            "math/difference",
+                            "average",
+                            "readings",
+                            "mask/volts",
+                            "mask/amps",
+                            "mask/time",
+                            "fft/window",
+                            "fft/log",
+                            "fft/levels",
+                            "fft/peaks",
+                            "trigger/kind",
+                            "trigger/edge",
+                            "trigger/upper",
+                            "trigger/hysteresis",
+                            "trigger/shortest",
+                            "trigger/longest",
+                            "trigger/holdOff"}) {
         settings.setValue(key, "nonsense");
     }
     settings.setValue("trigger/level", -1e9);

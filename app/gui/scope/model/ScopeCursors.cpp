@@ -144,13 +144,14 @@ bool ScopeTrigger::set(const QString& lane, const SampleTrigger& its, bool held)
     return true;
 }
 
-bool ScopeTrigger::dragLevel(double height, const LaneScale& scale, const QString& unit) {
+bool ScopeTrigger::dragLevel(bool other, double height, const LaneScale& scale, const QString& unit) {
     if (held_) return false;
     // Rounds to whole hundredths of a division, because a level set by eye needs no more digits.
     const double grain = scale.perDivision / 100;
     levelDragged_ = true;
-    its_.level = std::round(scale.levelAt(height) / grain) * grain;
-    text_ = QObject::tr("Trigger at %1").arg(quantityText(its_.level, unit, 3));
+    const double level = std::round(scale.levelAt(height) / grain) * grain;
+    (other ? its_.upper : its_.level) = level;
+    text_ = (other ? QObject::tr("Not reaching %1") : QObject::tr("Trigger at %1")).arg(quantityText(level, unit, 3));
     return true;
 }
 

@@ -99,8 +99,9 @@ public:
     bool set(const QString& lane, const SampleTrigger& its, bool held);
     /// Sets the share of the record before the trigger; nothing: this share cannot be set.
     void setFraction(std::optional<double> fraction) { fraction_ = fraction; }
-    /// Drags the level. Returns false if the level cannot be dragged; dragMoment() does the same.
-    bool dragLevel(double height, const LaneScale& scale, const QString& unit);
+    /// Drags the level, or the other threshold of a runt. Returns false if it cannot be dragged; dragMoment() does the
+    /// same.
+    bool dragLevel(bool other, double height, const LaneScale& scale, const QString& unit);
     bool dragMoment(double time_s, double length_s);
     void forgetMoment() { moment_s_.reset(); }
     /// Ends a drag. Returns the fraction that the user chose.

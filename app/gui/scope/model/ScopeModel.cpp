@@ -384,10 +384,10 @@ void ScopeModel::setTrigger(const QString& key, const SampleTrigger& trigger, bo
     if (trigger_.set(key, trigger, held)) emit overlayChanged();
 }
 
-void ScopeModel::dragTriggerLevel(double height) {
+void ScopeModel::dragTriggerLevel(double height, bool other) {
     const auto* source = lane(trigger_.lane());
-    if (source == nullptr || !trigger_.dragLevel(height, scaleOf(*source), source->unit)) return;
-    emit triggerLevelChosen(trigger_.level());
+    if (source == nullptr || !trigger_.dragLevel(other, height, scaleOf(*source), source->unit)) return;
+    other ? emit triggerUpperChosen(trigger_.its().upper) : emit triggerLevelChosen(trigger_.level());
     emit overlayChanged();
 }
 

@@ -121,7 +121,7 @@ public:
     /// `held`: the user cannot set the level.
     void setTrigger(const QString& lane, const SampleTrigger& trigger, bool held);
     void setPreTrigger(std::optional<double> fraction) { trigger_.setFraction(fraction); }
-    void dragTriggerLevel(double height);
+    void dragTriggerLevel(double height, bool other = false);  ///< see ScopeTrigger::dragLevel()
     void dragTriggerMoment(double time_s);
     void dropTrigger();
 
@@ -134,6 +134,7 @@ signals:
     void heldChanged();
     void overlayChanged();  ///< cursors, the trigger or the edge reading under the mouse changed
     void triggerLevelChosen(double level);
+    void triggerUpperChosen(double level);
     void preTriggerChosen(double fraction);
 
 private:

@@ -212,17 +212,17 @@ void AcquisitionPanel::showTrigger() {
 
 bool AcquisitionPanel::takeTrigger() {
     const auto read = fields_->read();
-    if (!read) return false;
     auto next = trigger_;
     next.level = level_->value();
     const auto& info = infoOf(next.kind);
     for (const auto& field : info.fields)
-        next.*field.value = read->parameters.at(std::string(field.key)).get<double>() / scaleOf(field);
+        if (read) next.*field.value = read->parameters.at(std::string(field.key)).get<double>() / scaleOf(field);
     for (const auto& edge : info.edges)
         if (fields_->text("edge") == qtext(edge.text)) next.edge = edge.value;
     const auto valid = checkTrigger(next, fullScale(), unit());
     const auto why = valid ? QString() : sentence(qtext(valid.error().message));
-    for (const auto* field : {"upper", "longest"}) fields_->refuse(field, why);
+    for (const auto* field : {"upper", "longest"})
+        if (read) fields_->refuse(field, why);  // otherwise the form has said what is wrong
     if (!valid || next == trigger_) return false;
     trigger_ = next;
     say();
@@ -242,6 +242,10 @@ void AcquisitionPanel::setLevel(double level) {
     const QSignalBlocker quiet(level_);
     level_->setValue(QString::number(level, 'g', 3).toDouble());
     takeTrigger();
+}
+
+void AcquisitionPanel::setUpper(double level) {
+    fields_->set("upper", QString::number((triggersOnCurrent() ? 1e3 : 1) * level, 'g', 3));
 }
 
 void AcquisitionPanel::setPreTrigger(double fraction) {

@@ -35,6 +35,8 @@ public:
     [[nodiscard]] bool triggersOnCurrent() const;
     /// Sets the level in V or A.
     void setLevel(double level);
+    /// Sets the other threshold of a runt, as if it were typed.
+    void setUpper(double level);
     void setPreTrigger(double fraction);
     /// True: the user cannot set the level now.
     void setLevelHeld(bool held);

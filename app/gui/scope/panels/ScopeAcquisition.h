@@ -49,6 +49,8 @@ public:
     /// The settings of the running capture, as the user chose them.
     [[nodiscard]] const ScopeSettings& requestedSettings() const noexcept { return requested_; }
     [[nodiscard]] const SampleTrigger& requestedTrigger() const noexcept { return trigger_; }
+    /// What the running capture waits for: "at 5.00 V", "on slope through -2.00 V".
+    [[nodiscard]] QString triggerText() const;
     /// The state as a sentence, for the time while `shown` is on the screen.
     [[nodiscard]] QString statusText(const ShownCapture* shown, std::uint64_t skipped) const;
 
@@ -67,7 +69,6 @@ private:
     [[nodiscard]] std::optional<Seconds> untriggeredAfter() const;
     [[nodiscard]] QString runningText(const ShownCapture* shown, std::uint64_t skipped) const;
     [[nodiscard]] bool awaitsTrigger() const;
-    [[nodiscard]] QString triggerText() const;
     [[nodiscard]] QString outputText() const;
 
     BenchController& controller_;

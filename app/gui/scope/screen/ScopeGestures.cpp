@@ -147,7 +147,7 @@ void ScopeGestures::dragGrip(const QPointF& pixel) {
         case Grip::Lane:
             return model_.dragLane(pressedView_, gripLane(), height);
         case Grip::TriggerLevel:
-            return model_.dragTriggerLevel(height);
+            return model_.dragTriggerLevel(height, grip_.which == 1);
         case Grip::TriggerMoment:
             return model_.dragTriggerMoment(time_s);
         case Grip::TimeCursor:

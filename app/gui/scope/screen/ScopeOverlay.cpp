@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kReach = 5;  ///< pixels around a line within which the mouse can grip it
 constexpr int kWordChars = 24;
+constexpr const char* kLevelWord = "T";
+constexpr const char* kOtherWord = "T₂";
 constexpr int kBandAlpha = 48;   ///< of 255: traces stay visible through a band
 constexpr double kWidthEnd = 8;  ///< pixels above and below the trigger's level
 
@@ -30,8 +32,8 @@ Pennant ScopeOverlay::lanePennant(int lane) const {
 }
 
 /// The pennant at the trigger's level. Moves inwards if a lane's handle is at the same place.
-Pennant ScopeOverlay::triggerPennant() const {
-    auto its = plane_.pennant(Qt::RightEdge, plane_.y(*state.trigger->height), "T");
+Pennant ScopeOverlay::triggerPennant(double height, const QString& text) const {
+    auto its = plane_.pennant(Qt::RightEdge, plane_.y(height), text);
     for (int lane = 0; lane < static_cast<int>(state.lanes.size()); ++lane) {
         if (!state.lanes[static_cast<std::size_t>(lane)].right) continue;
         const auto other = lanePennant(lane).shape.boundingRect();
@@ -65,7 +67,8 @@ GripAt ScopeOverlay::at(const QPointF& pixel) const {
     }
     if (state.trigger) {
         const auto& t = *state.trigger;
-        if (t.height && within(triggerPennant())) return {Grip::TriggerLevel, 0};
+        if (t.height && within(triggerPennant(*t.height, kLevelWord))) return {Grip::TriggerLevel, 0};
+        if (t.other && within(triggerPennant(*t.other, kOtherWord))) return {Grip::TriggerLevel, 1};
         if (t.moment_s && within(plane_.pennant(Qt::TopEdge, plane_.x(*t.moment_s), "T")))
             return {Grip::TriggerMoment, 0};
     }
@@ -130,7 +133,7 @@ void ScopeOverlay::drawTrigger(QCPPainter& painter) const {
         const double at = plane_.y(*t.other);
         if (at >= a.top() && at <= a.bottom())
             plane_.drawLine(painter, QLineF(a.left(), at, a.right(), at), t.colour, Qt::DotLine);
-        plane_.drawPennant(painter, plane_.pennant(Qt::RightEdge, at, "T₂"), "T₂", t.colour, false);
+        plane_.drawPennant(painter, triggerPennant(*t.other, kOtherWord), kOtherWord, t.colour, true);
     }
     if (t.began_s && t.height) drawWidthWindow(painter);
     if (t.height) {
@@ -138,7 +141,7 @@ void ScopeOverlay::drawTrigger(QCPPainter& painter) const {
         if (at >= a.top() && at <= a.bottom()) {
             plane_.drawLine(painter, QLineF(a.left(), at, a.right(), at), t.colour, Qt::DotLine);
         }
-        plane_.drawPennant(painter, triggerPennant(), "T", t.colour, !t.held);
+        plane_.drawPennant(painter, triggerPennant(*t.height, kLevelWord), kLevelWord, t.colour, !t.held);
     }
     if (!t.text.isEmpty())
         plane_.drawTag(painter, QPointF(a.center().x(), a.top() + a.height() * 0.12), t.text, t.colour);

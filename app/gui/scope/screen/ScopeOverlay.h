@@ -15,7 +15,7 @@ enum class Grip { None, Lane, TriggerLevel, TriggerMoment, TimeCursor, LevelCurs
 
 struct GripAt {
     Grip grip = Grip::None;
-    int which = 0;  ///< index of the lane or cursor
+    int which = 0;  ///< index of the lane or cursor; of a trigger's level 1 for a runt's other threshold
 };
 
 class ScopeOverlay final : public QCPLayerable {
@@ -33,7 +33,7 @@ protected:
 
 private:
     [[nodiscard]] Pennant lanePennant(int lane) const;
-    [[nodiscard]] Pennant triggerPennant() const;
+    [[nodiscard]] Pennant triggerPennant(double height, const QString& text) const;
     [[nodiscard]] Pennant levelTag(int cursor) const;
     /// Draws the coming train over the last one: dashed, with its description.
     void drawComing(QCPPainter& painter) const;
