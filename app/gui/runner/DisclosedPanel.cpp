@@ -86,6 +86,8 @@ DisclosedPanel::DisclosedPanel(QWidget* parent)
     column->addWidget(area_, 1);
     column->addStretch();
     layout_->addWidget(outputs_);
+    setTabOrder(wave_, area_);  // as they are read
+    setTabOrder(area_, table_);
     showOutputs(Outputs::Beside);
     clear();
 }

@@ -95,6 +95,9 @@ TEST_F(FocusOrder, OfASafetyCheckIsThatOfReading) {
     area->setText("4");
     ASSERT_NO_FATAL_FAILURE(runsToItsEnd());
     expectResultReadInOrder("safety check");
+    click(*find<QPushButton>(window, "Limits"));
+    window.resize(1280, 720);  // too low for limits and tracing in one view
+    ASSERT_IN_TIME(comesTrue([this] { return find<QPushButton>(window, "Tracing") != nullptr; }));
     click(*find<QPushButton>(window, "Tracing"));
     expectReadInOrder("safety check, Tracing");
 }
