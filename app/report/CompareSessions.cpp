@@ -111,8 +111,8 @@ bool isNumber(As as) {
 /// Everything that the tables of one session's results hold, by place: table, record, member.
 struct Found {
     struct Cell {
-        QString name, table;
-        std::string unit;
+        QString name{}, table{};
+        std::string unit{};
         Reading reading{};
         json word = nullptr;  ///< a verdict, or yes or no; the cell is then no number
     };
@@ -201,11 +201,26 @@ Found foundIn(const json& results) {
     return all;
 }
 
-/// Returns a value as it stands among settings: a word, or a number with its unit.
+/// Returns the first few of a list: "a, b, and 7 more".
+QString shortList(const QStringList& all) {
+    constexpr qsizetype kNamed = 6;
+    if (all.size() <= kNamed + 1) return all.join(", ");
+    return QObject::tr("%1, and %2 more").arg(all.first(kNamed).join(", ")).arg(all.size() - kNamed);
+}
+
+/// Returns a value as it stands among settings: a word, a number with its unit, or the first few of a list.
 json settingOf(const json& value, const QString& unit) {
+    if (value.is_array()) {
+        QStringList all;
+        for (const auto& each : value) {
+            const auto text = settingOf(each, unit);
+            all << (text.is_string() ? textFrom(text.get<std::string>()) : textFrom(dumpJson(text)));
+        }
+        return shortList(all).toStdString();
+    }
     if (value.is_number() && !unit.isEmpty()) return settingText(value.get<double>(), unit).toStdString();
     if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-    return value.is_structured() ? json(dumpJson(value)) : value;
+    return value;
 }
 
 class Comparing {
@@ -278,53 +293,64 @@ private:
         for (const auto& [role, name] : b) setting(columnName(textFrom(role)).title, a[role], name);
     }
 
-    void parameters() {
-        for (const auto& [key, value] : b_.about.parameters.items()) {
-            const auto before = valueOr(a_.about.parameters, key.c_str());
-            const auto declared = b_.settings.find(key);
-            const bool known = declared != b_.settings.end();
-            const auto column = columnName(textFrom(key));
-            if (before.is_null()) continue;
-            setting(known ? textFrom(textOr(declared->second, "label")) : column.title, before, value,
-                    known ? textFrom(textOr(declared->second, "unit")) : column.unit);
-        }
-    }
-
     struct Leaf {
         QString name, unit;
         json value;
     };
-    /// Collects every plain value below `at` by place; leaves out lists of numbers.
+    /// Collects every plain value below `at`, and each list of plain values, by place.
     static void leavesOf(const json& at, const std::string& place, const QString& name,
                          std::map<std::string, Leaf>& into) {
         int index = 0;
         for (const auto& [key, value] : at.items()) {
-            if (at.is_array() && !value.is_object()) continue;
             const auto column = columnName(textFrom(key));
             const auto own = at.is_array() ? textOr(value, "name") : std::string();
             const auto part = !own.empty() ? textFrom(own) : at.is_array() ? QString::number(index + 1) : column.title;
             ++index;
             const auto named = name + ", " + part.left(1).toLower() + part.mid(1);
             const auto where = place + '/' + key;
-            if (value.is_structured())
+            const bool plainList = value.is_array() && std::ranges::none_of(value, &json::is_structured);
+            if (value.is_structured() && !plainList)
                 leavesOf(value, where, named, into);
             else
                 into[where] = {named, column.unit, value};
         }
     }
 
-    void profile() {
-        const auto a = parseJson(a_.about.profileJson, "the profile"),
-                   b = parseJson(b_.about.profileJson, "the profile");
-        if (!a || !b) return;
+    void compareLeaves(const QString& name, const json& a, const json& b) {
         std::map<std::string, Leaf> first, second;
-        leavesOf(*a, "", "Profile", first);
-        leavesOf(*b, "", "Profile", second);
+        leavesOf(a, "", name, first);
+        leavesOf(b, "", name, second);
         for (const auto& [place, leaf] : first) second.try_emplace(place, Leaf{leaf.name, leaf.unit, nullptr});
         for (const auto& [place, leaf] : second) {
             const auto before = first.find(place);
             setting(leaf.name, before == first.end() ? json() : before->second.value, leaf.value, leaf.unit);
         }
+    }
+
+    void parameters() {
+        const auto &a = a_.about.parameters, &b = b_.about.parameters;
+        auto keys = b;
+        for (const auto& [key, value] : a.items()) keys[key] = value;
+        for (const auto& [key, value] : keys.items()) {
+            const auto first = valueOr(a, key.c_str()), second = valueOr(b, key.c_str());
+            // Another procedure has other settings.
+            if ((first.is_null() || second.is_null()) && a_.about.protocol != b_.about.protocol) continue;
+            const auto declared = b_.settings.find(key);
+            const bool known = declared != b_.settings.end();
+            const auto column = columnName(textFrom(key));
+            const auto label = known ? textFrom(textOr(declared->second, "label")) : column.title;
+            const auto unit = known ? textFrom(textOr(declared->second, "unit")) : column.unit;
+            if (first.is_object() || second.is_object())
+                compareLeaves(label, first, second);
+            else
+                setting(label, first, second, unit);
+        }
+    }
+
+    void profile() {
+        const auto a = parseJson(a_.about.profileJson, "the profile"),
+                   b = parseJson(b_.about.profileJson, "the profile");
+        if (a && b) compareLeaves("Profile", *a, *b);
     }
 
     void totals() {
@@ -377,7 +403,7 @@ private:
         }
         for (const auto& [condition, repeated] : a)
             if (!b.contains(condition)) alone[0] << nameOf(condition);
-        setting("Conditions that only one has", alone[0].join(", ").toStdString(), alone[1].join(", ").toStdString());
+        setting("Conditions that only one has", shortList(alone[0]).toStdString(), shortList(alone[1]).toStdString());
     }
 
     void results() {

@@ -79,6 +79,26 @@ TEST(CompareSessions, SettingsThatDifferAreNamedWithBothValues) {
     EXPECT_NE(settingIn(compared, "Profile, encoding, added"), nullptr) << "what only one has is a difference too";
 }
 
+TEST(CompareSessions, SettingsAreWordsHoweverTheyAreBuilt) {
+    auto a = session(), b = session();
+    a.about.parameters = {{"grid", {{"rows", 3}, {"steps_v", {5, 10}}}}, {"times_s", {1, 2}}, {"gone", true}};
+    b.about.parameters = {{"grid", {{"rows", 4}, {"steps_v", {5, 20}}}}, {"times_s", {1, 3}}};
+    for (int i = 0; i < 40; ++i) b.trials.push_back({i, i, Instant(i), fmt::format("{} ohm", i), {}});
+    const auto compared = compareTwo(a, b);
+    ASSERT_NE(settingIn(compared, "Grid, rows"), nullptr) << toJson(compared).dump(1);
+    EXPECT_EQ(settingIn(compared, "Grid, rows")->b, 4);
+    ASSERT_NE(settingIn(compared, "Grid, steps"), nullptr);
+    EXPECT_EQ(settingIn(compared, "Grid, steps")->b, "5\u202fV, 20\u202fV");
+    ASSERT_NE(settingIn(compared, "Times"), nullptr);
+    ASSERT_NE(settingIn(compared, "Gone"), nullptr) << "what only one has";
+    EXPECT_TRUE(settingIn(compared, "Gone")->b.is_null());
+    const auto* alone = settingIn(compared, "Conditions that only one has");
+    ASSERT_NE(alone, nullptr);
+    EXPECT_THAT(alone->b.get<std::string>(), testing::EndsWith("and 34 more"));
+    for (const auto& [name, first, second] : compared.settings)
+        for (const auto& value : {first, second}) EXPECT_FALSE(value.is_structured()) << name;
+}
+
 TEST(CompareSessions, TheDifferenceOfEqualOutputsIsMoreThanUInOneOfTwenty) {
     RecordProperty("hazard", "H9");
     std::mt19937 random(4909);

@@ -29,8 +29,8 @@ private:
     /// What both sessions hold and the figure can show; `at` is a stream's id or a capture's row in each session.
     struct Drawn {
         Source source = Source::Trials;
-        QString title;
-        QString unit;
+        QString title{};
+        QString unit{};
         std::array<std::int64_t, 2> at{};
         std::size_t column = 0;
     };
