@@ -108,6 +108,7 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     listed_->setChecked(true);
     list_->setAccessibleName(tr("Peaks of the spectrum"));
     list_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+    list_->setTabKeyNavigation(false);  // Tab leaves it
     list_->verticalHeader()->hide();
     list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     list_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
