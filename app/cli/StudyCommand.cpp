@@ -6,6 +6,7 @@
 #include "app/cli/StudyOptions.h"
 #include "app/cli/StudyPassphrase.h"
 #include "app/run/PilotRows.h"
+#include "app/run/StudyWords.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/base/LocaleFreeText.h"
 #include "core/pilot/PilotRecord.h"
@@ -250,6 +251,44 @@ int trials(Study& study, const QCommandLineParser& parser, const QStringList& wo
     return kDone;
 }
 
+/// Prints what participants read, as a committee gets it: a language's words, or else which languages there are.
+int readWords(Study& study, const QCommandLineParser& parser, const QStringList& words) {
+    const auto& approved = study.settings().words;
+    const auto describe = [&](const ParticipantWords& one) {
+        const bool stated = std::ranges::count(approved, one.sha256(), &WordsHash::sha256) > 0;
+        return Json{{"language", one.code()},
+                    {"name", one.language()},
+                    {"version", one.version()},
+                    {"sha256", one.sha256()},
+                    {"approved", stated}};
+    };
+    if (words.size() < 3) {
+        const auto all = languagesOf(study.folder());
+        if (!all) return couldNotRun(all.error());
+        auto listed = Json::array();
+        for (const auto& one : *all) listed.push_back(describe(one));
+        if (parser.isSet("json")) {
+            printJson({{"words", std::move(listed)}});
+            return kDone;
+        }
+        for (std::size_t i = 0; i < all->size(); ++i)
+            say("{}  {}{}\n", (*all)[i].code(), (*all)[i].name(), listed[i]["approved"] == true ? ", approved" : "");
+        return kDone;
+    }
+    const auto one = languageOf(study.folder(), words.at(2).toStdString());
+    if (!one) return couldNotRun(one.error());
+    auto said = describe(*one);
+    said["words"] = Json::array();
+    for (const auto& [key, text] : one->all()) said["words"].push_back({{"key", key}, {"text", text}});
+    if (parser.isSet("json")) {
+        printJson(said);
+        return kDone;
+    }
+    say("{}{}\n\n", one->name(), said["approved"] == true ? ", approved" : "");
+    for (const auto& [key, text] : one->all()) say("{:32} {}\n", key, text);
+    return kDone;
+}
+
 struct StudyWord {
     const char* name;
     int least, most;    ///< number of words, including the command's own
@@ -291,6 +330,7 @@ const std::vector<StudyWord>& studyWords() {
          false,
          [](Study& study, const QCommandLineParser& parser, const QStringList&) { return show(study, parser); }},
         {"trials", 3, 3, "STUDY and CODE", {"session", "passphrase-file", "json"}, false, trials},
+        {"words", 2, 3, "STUDY and LANGUAGE", {"passphrase-file", "json"}, false, readWords},
         {"leave", 3, 3, "STUDY and CODE", {"reason", "passphrase-file", "json"}, true, leave},
         {"note", 3, 3, "STUDY and KIND", {"set", "passphrase-file", "json"}, true, note},
         {"release", 3, 3, "STUDY and EVENT", {"by", "reason", "passphrase-file", "json"}, true, release},
@@ -354,7 +394,8 @@ const Command kStudy{
     "[--set KEY=VALUE]... [--profile FILE] | "
     "enrol STUDY [CODE] [--virtual SEED] [--group GROUP] [--age YEARS] [--sex SEX] [--handedness HAND] | "
     "consent STUDY CODE --version V --date DATE --by INITIALS | show STUDY | "
-    "trials STUDY CODE [--session N] | leave STUDY CODE [--reason T] | withdraw STUDY CODE --confirm CODE | "
+    "trials STUDY CODE [--session N] | words STUDY [LANGUAGE] | leave STUDY CODE [--reason T] | withdraw STUDY CODE "
+    "--confirm CODE | "
     "go-back STUDY [--confirm WORD] | "
     "adverse-event STUDY [SESSION] --what TEXT --severity 1..4 --relation 1..5 [--serious] [--expected WORD] "
     "[--onset DATE] [--ended DATE] [--action T] [--outcome T] [--reported] | release STUDY EVENT --by NAME [--reason "

@@ -40,7 +40,8 @@ Result<StudySettings> asSetHere(const QCommandLineParser& parser, StudySettings 
     if (auto taken = forEachSet(parser, take); !taken) return failure(taken);
     const auto profile = profileOption(parser);
     if (!profile) return failure(profile);
-    if (auto stated = stateProgram(settings, *profile); !stated) return failure(stated);
+    const auto folder = parser.positionalArguments().value(1);  // its words are stated too
+    if (auto stated = stateProgram(settings, *profile, folder.toStdString()); !stated) return failure(stated);
     return settings;
 }
 

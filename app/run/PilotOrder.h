@@ -22,6 +22,11 @@ struct PilotOrder {
     /// Empty for a virtual participant, who answers no to all except those in `--set exclusions`.
     std::vector<ExclusionAnswer> exclusions;
     std::optional<MarkerAddress> markers;  ///< nothing: no markers are sent
+    /// Is shown what a virtual participant is shown; must outlive the run. May be null.
+    PilotParticipant* watch = nullptr;
+    /// How many times faster than with a person a virtual participant's screens pass; 0: as fast as possible. No screen
+    /// stays for more than a second.
+    double pace = 0;
 };
 
 }  // namespace tacto

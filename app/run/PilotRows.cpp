@@ -23,7 +23,12 @@ Result<PilotRows> pilotRows(const Study& study, const StudySession& session) {
         const auto& about = reader->about();
         const auto started = wallTimeFrom(about.wallStart);
         for (const auto& event : *events) {
-            if (event.name == row::kPlan) rows.runSha256 = planRowFrom(event.body).runSha256;
+            if (event.name == row::kPlan) {
+                auto plan = planRowFrom(event.body);
+                rows.runSha256 = std::move(plan.runSha256);
+                rows.language = std::move(plan.language);
+                rows.wordsSha256 = std::move(plan.wordsSha256);
+            }
             if (event.name == row::kSessionEnd) rows.ended = pilotEndFrom(textOr(event.body, "state"));
             if (event.name != row::kAnswer && event.name != row::kNoAnswer && event.name != row::kTrialBegin) continue;
             allTimed = allTimed && started;

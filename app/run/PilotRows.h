@@ -22,6 +22,7 @@ struct PilotRows {
     std::vector<SessionRow> events;         ///< in order of time
     std::optional<std::uint64_t> seed;      ///< the first part's seed
     std::string chainHead;                  ///< the last part's chain head
+    std::string language, wordsSha256;      ///< what its participant reads; empty if its plan states none
     std::string runSha256;                  ///< runHash() of its plan; empty if not kept yet
     std::optional<SessionDevice> delivers;  ///< the stimulator or massager of the first part
     /// When something was last presented or answered; else when the session began, even if it was resumed. On a virtual

@@ -1,11 +1,14 @@
 #include "app/run/PilotRun.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 #include <utility>
 
 #include "app/run/EncodingTurn.h"
 #include "app/run/MachineGate.h"
 #include "app/run/StudyProgram.h"
+#include "app/run/StudyWords.h"
 #include "app/run/VirtualPerson.h"
 #include "core/base/Clock.h"
 #include "core/base/JsonText.h"
@@ -16,7 +19,7 @@ namespace tacto {
 
 namespace {
 
-constexpr const char *kMethod = "method", *kComparison = "comparison";
+constexpr const char *kMethod = "method", *kComparison = "comparison", *kLanguage = "language";
 
 std::string textOf(const RunOrder& order, const char* name) { return textOr(order.settings.parameters, name); }
 
@@ -60,6 +63,26 @@ PersonSetup stimulated(const Participant& who, const StudySettings& study, const
     person.impedanceLow = profile.loadLow;
     person.impedanceHigh = profile.loadHigh;
     return person;
+}
+
+constexpr Seconds kLongestScreen{1};     // at a pace
+constexpr Seconds kBetweenScreens{0.1};  // as fast as possible, more screens could not be read
+
+/// Hands the screens of a virtual participant on to `watch` at `pace`.
+auto watching(PilotParticipant& watch, double pace, std::shared_ptr<const Clock> clock) {
+    return [&watch, pace, clock = std::move(clock), shown = Instant(0),
+            at = std::chrono::steady_clock::time_point()](const PilotScreen& screen) mutable {
+        const auto now = clock->now();
+        if (pace > 0) {
+            std::this_thread::sleep_for(std::min(kLongestScreen, Seconds(now - shown) / pace));
+            shown = now;
+        } else if (clock->isVirtual()) {
+            const auto time = std::chrono::steady_clock::now();
+            if (time - at < kBetweenScreens) return;
+            at = time;
+        }
+        watch.show(screen);
+    };
 }
 
 /// Levels rise one step at a time, and no current is permitted.
@@ -143,6 +166,19 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     if (auto answers = virtualAnswers(order.settings.parameters, study)) request_.exclusions = std::move(*answers);
 }
 
+/// Without a language, the words are those of the session that goes on, else the approval's first, else English.
+Result<void> PilotRun::chooseWords(std::string language, const std::filesystem::path& folder) {
+    const auto& study = study_.settings();
+    if (language.empty()) language = unfinished_.earlier().language;
+    if (language.empty()) language = study.words.empty() ? ParticipantWords::english().code() : study.words[0].code;
+    auto words = languageOf(folder, language);
+    if (!words) return failure(words);
+    if (auto same = unfinished_.sameWords(*words); !same) return same;
+    if (auto stated = wordsGate(study, *words); !stated) return stated;
+    settings_.words = std::move(*words);
+    return {};
+}
+
 Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock& clock, const DeviceSet& devices) {
     const auto identities = devices.identities();
     request_.devicesSimulated = std::ranges::all_of(identities, &DeviceIdentity::simulated);
@@ -191,6 +227,7 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     if (!unfinished) return failure(unfinished);
     made->unfinished_ = std::move(*unfinished);
     made->fitOrder(order, pilot);
+    if (auto chosen = made->chooseWords(textOf(order, kLanguage), pilot.study); !chosen) return failure(chosen);
     const VirtualObserver* truth = nullptr;
     PilotParticipant* people = pilot.people;
     if (made->who_.isVirtual()) {
@@ -217,6 +254,10 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     if (made->markers_) {
         made->markers_->begin(opened.clock);
         made->record_->onMarker = [to = made->markers_](const PilotMarker& each) { to->send(each.at, each.name); };
+    }
+    if (pilot.watch != nullptr && people == made->virtual_.get()) {
+        made->virtual_->onShow = watching(*pilot.watch, pilot.pace, opened.clock);
+        made->virtual_->onCounted = [watch = pilot.watch](const PilotCounts& counts) { watch->counted(counts); };
     }
     const auto parts = static_cast<int>(made->begun_->session.parts.size());
     made->session_ =

@@ -54,6 +54,7 @@ private:
     [[nodiscard]] Result<void> noteSkin(const std::string& moment, int score);
     [[nodiscard]] std::optional<MarkerTally> endMarkers();
     void fitOrder(RunOrder& order, const PilotOrder& pilot);
+    [[nodiscard]] Result<void> chooseWords(std::string language, const std::filesystem::path& folder);
     [[nodiscard]] Result<RunSession> makeSession(const SessionAbout& about, const Clock& clock,
                                                  const DeviceSet& devices);
 

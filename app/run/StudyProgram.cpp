@@ -1,6 +1,7 @@
 #include "app/run/StudyProgram.h"
 
 #include "app/run/Shipped.h"
+#include "app/run/StudyWords.h"
 #include "app/scripting/ShippedResources.h"
 #include "core/base/JsonText.h"
 #include "core/session/Digest.h"
@@ -37,7 +38,7 @@ StudyProcedure procedureOf(const Profile& profile, const StudySettings& study, c
             sha256Hex(dumpJson(hashed)), asked.comparison};
 }
 
-Result<void> stateProgram(StudySettings& settings, const Profile& profile) {
+Result<void> stateProgram(StudySettings& settings, const Profile& profile, const std::filesystem::path& folder) {
     const auto limits = shippedLimits();
     if (!limits) return failure(limits);
     settings.limits.clear();
@@ -48,6 +49,10 @@ Result<void> stateProgram(StudySettings& settings, const Profile& profile) {
         if (script.name.starts_with(kPilotScripts))
             settings.scripts.push_back({std::string(script.name), std::string(script.sha256)});
     }
+    const auto words = languagesOf(folder);
+    if (!words) return failure(words);
+    settings.words.clear();
+    for (const auto& each : *words) settings.words.push_back({each.code(), each.version(), each.sha256()});
     auto fitted = profile;
     fitProfile(fitted, settings);
     if (auto possible = validate(fitted.encoding); !possible) return possible;  // a session would be refused

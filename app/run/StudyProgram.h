@@ -3,6 +3,8 @@
 // Thread-safety: pure, except for the files of the limit sets.
 #pragma once
 
+#include <filesystem>
+
 #include "core/bench/Profile.h"
 #include "core/study/StudySettings.h"
 
@@ -19,8 +21,10 @@ struct AskedProcedure {
 [[nodiscard]] StudyProcedure procedureOf(const Profile& profile, const StudySettings& study,
                                          const AskedProcedure& asked);
 
-/// Fills in `limits`, `scripts` and `procedure`; what is asked stays as it is. Errors: as shippedLimits();
-/// InvalidArgument for a train that the profile cannot give, which every session would refuse.
-[[nodiscard]] Result<void> stateProgram(StudySettings& settings, const Profile& profile);
+/// Fills in `limits`, `scripts`, `words` (also of the study's `folder`) and `procedure`; what is asked stays as it is.
+/// Errors: as shippedLimits() and languagesOf(); InvalidArgument for a train that the profile cannot give, which every
+/// session would refuse.
+[[nodiscard]] Result<void> stateProgram(StudySettings& settings, const Profile& profile,
+                                        const std::filesystem::path& folder = {});
 
 }  // namespace tacto

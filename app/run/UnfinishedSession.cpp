@@ -77,6 +77,15 @@ Result<void> UnfinishedSession::sameProcedure(std::string_view runSha256) const 
                 continued_->number, code_, earlier_.runSha256, runSha256, whatEnds());
 }
 
+Result<void> UnfinishedSession::sameWords(const ParticipantWords& words) const {
+    const auto& begun = earlier_.wordsSha256;
+    if (!continued_ || begun.empty() || begun == words.sha256()) return {};
+    return fail(kGateRefused,
+                "session {} of {} was begun with the words {} ({:.12}…), and {} are those of now; it goes on with the "
+                "former, or ends with {}",
+                continued_->number, code_, earlier_.language, begun, words.name(), whatEnds());
+}
+
 Result<BegunSession> UnfinishedSession::begin(Study& study, const SessionRequest& request,
                                               std::vector<std::string>& remarks) const {
     if (continued_) return study.continueSession(continued_->id, request);

@@ -11,6 +11,7 @@
 
 #include "app/run/PilotRows.h"
 #include "core/devices/DeviceSet.h"
+#include "core/pilot/ParticipantWords.h"
 #include "core/study/Study.h"
 
 namespace tacto {
@@ -40,6 +41,8 @@ public:
     [[nodiscard]] Result<void> sameDevice(const DeviceSet& devices) const;
     /// Levels hold for one kind of train only, and answers of two procedures cannot be combined. Errors: kGateRefused.
     [[nodiscard]] Result<void> sameProcedure(std::string_view runSha256) const;
+    /// The participant reads on in the words with which the session was begun. Errors: kGateRefused.
+    [[nodiscard]] Result<void> sameWords(const ParticipantWords& words) const;
 
     /// Books the resumed part, or ends the unfinished session and books the new one. This happens only after every gate
     /// has agreed, because until then the unfinished session can be continued. `remarks` names what was ended. Errors:

@@ -19,7 +19,8 @@ constexpr double kChecksAgree = 0.2;  // two checks, 30 s apart, agree within 20
 constexpr double kBlocksAgree = 0.3;  // impedance before a block or on a resume: within 30 % of the first
 constexpr int kSkinEnds = 2;          // score of erythema or oedema that ends the session
 constexpr std::chrono::milliseconds kStopIn{10};
-constexpr int kStopTries = 3;  // how often a test is repeated if the other person's STOP is pressed
+constexpr int kIntroduction = 3;  // pages
+constexpr int kStopTries = 3;     // how often a test is repeated if the other person's STOP is pressed
 
 constexpr Word<int> kSkinKeys[] = {{"0", 0}, {"1", 1}, {"2", 2}, {"3", 3}, {"4", 4}};
 
@@ -28,26 +29,27 @@ double inMs(std::chrono::nanoseconds time) { return std::chrono::duration<double
 constexpr std::string_view kQualities[] = {"touch",    "pressure", "tapping",   "vibration", "tingling",
                                            "pricking", "burning",  "twitching", "phantom"};
 
-/// Returns a target for each key; its text is the key as a title: "Totally natural" for "totally-natural".
-std::vector<PromptTarget> targetsOf(std::span<const std::string_view> keys) {
+/// Returns a target for each key, with its text in `group` of the words.
+std::vector<PromptTarget> targetsOf(const ParticipantWords& words, std::string_view group,
+                                    std::span<const std::string_view> keys) {
     std::vector<PromptTarget> out;
-    for (const auto key : keys) {
-        auto& text = out.emplace_back(PromptTarget{std::string(key), std::string(key)}).text;
-        text.front() = capital(text.front());
-        std::ranges::replace(text, '-', ' ');
-    }
+    for (const auto key : keys) out.push_back({std::string(key), words.text(group, key, key)});
     return out;
+}
+
+/// A scale with its question and the words at its ends.
+PilotPrompt anchored(const ParticipantWords& words, const std::string& name, int least, int most,
+                     const std::string& effect = {}) {
+    auto prompt = scalePrompt(name, words.text(name + ".question", {{"effect", effect}}), least, most);
+    prompt.leastText = words.text(name + ".least");
+    prompt.mostText = words.text(name + ".most");
+    return prompt;
 }
 
 PilotPrompt severalPrompt(std::string name, std::string text, std::vector<PromptTarget> offered) {
     PilotPrompt prompt = choicePrompt(std::move(name), std::move(text), std::move(offered));
     prompt.kind = PromptKind::Several;
     return prompt;
-}
-
-/// Returns text such as "1 none to 5 definite".
-std::string endsOf(std::span<const char* const> words) {
-    return scoreText(words, 1) + " to " + scoreText(words, static_cast<int>(words.size()));
 }
 
 PilotPrompt skinPrompt(const std::string& what, const std::string& words) {
@@ -116,6 +118,7 @@ Result<void> PilotCare::checklist() {
     for (const auto& each : stage_.settings().holds) {
         if (auto answered = stage_.answeredFor(each); !answered) return answered;
     }
+    if (auto read = introduce(); !read) return read;
     for (const auto by : {PromptTo::Participant, PromptTo::Operator}) {
         if (auto held = stopTest(by); !held) return held;
     }
@@ -131,6 +134,19 @@ Result<void> PilotCare::machine() {
     return gate(part() + " machine", missing.empty(), missing + ". Nothing was presented");
 }
 
+Result<void> PilotCare::introduce() {
+    PilotScreen screen;  // from here on a stop is the session's
+    screen.phase = "checklist";
+    stage_.participant().show(screen);
+    for (int page = 1; page <= kIntroduction; ++page) {
+        const auto name = fmt::format("introduction {}", page);
+        const auto text = stage_.words().text(fmt::format("introduction.{}", page));
+        const auto read = stage_.ask(row::kPhase, name, goOnPrompt(text, PromptTo::Participant, stage_.words()));
+        if (!read) return failure(read);
+    }
+    return {};
+}
+
 /// Tests one STOP: it must switch the output off in time. If the other person's STOP was pressed instead, asks again.
 Result<void> PilotCare::stopTest(PromptTo by) {
     const auto name = fmt::format("{} {}", part(), nameOf(by));
@@ -139,7 +155,10 @@ Result<void> PilotCare::stopTest(PromptTo by) {
     bool theirs = false, armed = true;
     for (int asked = 0; asked < kStopTries && !theirs;) {
         if (auto ready = stage_.arm(); !ready) return ready;
-        auto prompt = goOnPrompt(fmt::format("Press STOP now: the {}'s is being tested.", nameOf(by)), by);
+        const bool theirOwn = by == PromptTo::Participant;
+        auto prompt = goOnPrompt(
+            theirOwn ? stage_.words().text("stop-test.question") : "Press STOP now: the operator's is being tested.",
+            by);
         prompt.name = "stop-test";
         PilotScreen screen;  // the test itself begins: a stop from here on is the test's
         screen.phase = "checklist";
@@ -211,6 +230,13 @@ Result<double> PilotCare::checkedTwice() {
     for (int tries = 1;; ++tries) {
         const auto first = stage_.measureImpedance(part() + " first");
         if (!first) return failure(first);
+        PilotScreen waits;
+        waits.phase = "checklist";
+        waits.text = stage_.words().text("checking.electrodes");
+        waits.operatorText = "Waiting 30 s between the two checks of the electrodes";
+        waits.operatorMayKnow = true;
+        waits.until = stage_.bench().clock().now() + toInstant(kBetweenChecks);
+        stage_.participant().show(waits);
         if (auto passed = stage_.pass(kBetweenChecks); !passed) return failure(passed);
         const auto second = stage_.measureImpedance(part() + " second");
         if (!second) return failure(second);
@@ -319,12 +345,12 @@ Result<void> PilotCare::ratings(const std::vector<PresentedCondition>& condition
         if (!felt) return failure(felt);
         std::vector<std::string_view> natural;
         for (const auto& word : kNaturalness) natural.push_back(word.text);
+        const auto& words = stage_.words();
         const PilotPrompt prompts[] = {
-            scalePrompt("intensity", "How strong was it?", 0, 10),
-            scalePrompt("unpleasantness", "How unpleasant was it?", 0, 10),
-            scalePrompt("pain", "How painful was it?", 0, 10),
-            choicePrompt("naturalness", "How natural did it feel?", targetsOf(natural)),
-            severalPrompt("qualities", "What did it feel like? Any number of words.", targetsOf(kQualities))};
+            anchored(words, "intensity", 0, 10), anchored(words, "unpleasantness", 0, 10),
+            anchored(words, "pain", 0, 10),
+            choicePrompt("naturalness", words.text("naturalness.question"), targetsOf(words, "naturalness", natural)),
+            severalPrompt("qualities", words.text("qualities.question"), targetsOf(words, "qualities", kQualities))};
         for (const auto& prompt : prompts) {
             const auto name = condition.name + " " + prompt.name;
             const bool replayed = stage_.record().find(row::kRating, name) != nullptr;
@@ -343,13 +369,12 @@ Result<void> PilotCare::ratings(const std::vector<PresentedCondition>& condition
 Result<void> PilotCare::compareEncodings() {
     const auto& settings = stage_.settings();
     if (settings.earlierEncoding.empty()) return {};
-    const std::vector<PromptTarget> offered = {{settings.encoding, "Today's"},
-                                               {settings.earlierEncoding, "The earlier session's"},
-                                               {row::kNoDifference, "No difference"}};
-    for (const auto& [item, text] :
-         {std::pair{row::kEasier, "Which names were easier to tell: today's, or those of the earlier session?"},
-          std::pair{row::kMoreLikeTouch,
-                    "Which names fit better what touch is like: today's, or those of the earlier session?"}}) {
+    const auto& words = stage_.words();
+    const std::vector<PromptTarget> offered = {{settings.encoding, words.text("encodings.today")},
+                                               {settings.earlierEncoding, words.text("encodings.earlier")},
+                                               {row::kNoDifference, words.text("encodings.no-difference")}};
+    for (const char* item : {row::kEasier, row::kMoreLikeTouch}) {
+        const auto text = words.text(row::kEncodings, item, item);
         const auto name = fmt::format("{} {}", row::kEncodings, item);
         const auto said = stage_.ask(row::kRating, name, choicePrompt(name, text, offered));
         if (!said) return failure(said);
@@ -360,20 +385,21 @@ Result<void> PilotCare::compareEncodings() {
 Result<void> PilotCare::sideEffects(const std::string& moment) {
     stage_.rest();
     std::vector<PromptTarget> offered;
-    for (const auto& effect : kSideEffects) offered.push_back({effect.key, effect.text});
-    const auto noticed =
-        stage_.ask(row::kSideEffect, moment,
-                   severalPrompt("side-effects", "Which of these do you notice now?", std::move(offered)));
+    const auto& words = stage_.words();
+    for (const auto& effect : kSideEffects)
+        offered.push_back({effect.key, words.text("effects", effect.key, effect.text)});
+    const auto noticed = stage_.ask(row::kSideEffect, moment,
+                                    severalPrompt("side-effects", words.text("effects.question"), std::move(offered)));
     if (!noticed) return failure(noticed);
     for (const auto& key : textsOr(*noticed, "keys")) {
-        const auto severity = stage_.ask(row::kSideEffect, fmt::format("{} {} severity", moment, key),
-                                         scalePrompt("severity", key + ": how severe? " + endsOf(kSideEffectSeverities),
-                                                     1, static_cast<int>(std::size(kSideEffectSeverities))));
+        const auto effect = words.text("effects", key, key);
+        const auto severity =
+            stage_.ask(row::kSideEffect, fmt::format("{} {} severity", moment, key),
+                       anchored(words, "severity", 1, static_cast<int>(std::size(kSideEffectSeverities)), effect));
         if (!severity) return failure(severity);
         const auto relation =
             stage_.ask(row::kSideEffect, fmt::format("{} {} relation", moment, key),
-                       scalePrompt("relation", key + ": related to the stimulation? " + endsOf(kRelations), 1,
-                                   static_cast<int>(std::size(kRelations))));
+                       anchored(words, "relation", 1, static_cast<int>(std::size(kRelations)), effect));
         if (!relation) return failure(relation);
     }
     return {};

@@ -26,6 +26,8 @@ public:
     /// part also asks for the skin before and the electrodes' lot; later parts, whether electrodes or massager were
     /// left untouched. Errors: Stopped with the gate's sentence, when the session has ended.
     [[nodiscard]] Result<void> checklist();
+    /// Has the participant read what comes; once in a session.
+    [[nodiscard]] Result<void> introduce();
     /// Checks that the impedance is within 30 % of the session's first, except with a massager. Errors: as checklist().
     [[nodiscard]] Result<void> beforeBlock(int block);
     /// Called with a score that ends the session and is an adverse event of the whole study. skin() returns its error.

@@ -50,7 +50,8 @@ Result<void> PilotIdentification::plan(bool withTrials) {
     const auto stored = stage_.record().once(row::kPlan, "plan", [&]() -> Result<nlohmann::json> {
         nlohmann::json body =
             toJson(PlanRow{settings.seed, settings.encoding, static_cast<std::uint64_t>(settings.blocks),
-                           settings.runSha256, fmt::format("{}", fmt::join(places(), ","))});
+                           settings.runSha256, fmt::format("{}", fmt::join(places(), ",")), settings.words.code(),
+                           settings.words.version(), settings.words.sha256()});
         body["trials"] = nullptr;
         if (!withTrials) return body;
         auto planned = drawn();
@@ -124,7 +125,7 @@ StageTrial PilotIdentification::stageTrial(const PlannedTrial& planned) const {
     const auto interval = planned.condition ? presented_[*planned.condition].interval : stage_.settings().longest;
     trial.level = planned.condition ? presented_[*planned.condition].level : 0;
     trial.presentation = testPresentation(stage_.levelOf(trial.level), interval, stage_.settings().window);
-    trial.prompt = conditionPrompt(places());
+    trial.prompt = conditionPrompt(places(), stage_.words());
     trial.prompt.within = kTargetsTimeout;
     trial.screen.state = ScreenState::Feel;
     trial.screen.phase = nameOf(planned.phase);
@@ -167,6 +168,7 @@ void PilotIdentification::keep(const PlannedTrial& planned, const StageTrial& tr
 
 Result<void> PilotIdentification::familiarise() {
     if (auto ready = prepare(); !ready) return ready;
+    if (auto read = stage_.instruct("familiarisation"); !read) return read;
     for (const auto& planned : of(TrialPhase::Familiarisation)) {
         auto trial = stageTrial(planned);
         trial.asks = false;
@@ -176,15 +178,16 @@ Result<void> PilotIdentification::familiarise() {
         const auto felt = present(planned, trial);
         if (!felt) return failure(felt);
     }
+    const auto& words = stage_.words();
     // The targets have the places and keys of the answers to come, so that all four places are there from the start.
-    std::vector<PromptTarget> offered = conditionPrompt(places()).targets;
+    std::vector<PromptTarget> offered = conditionPrompt(places(), words).targets;
     offered.resize(labels().size());
-    offered.push_back({"go-on", "Go on"});
+    offered.push_back({"go-on", words.text("answer.go-on")});
     std::map<std::string, int> onDemand;
     const auto isLeft = [&](const PresentedCondition& each) { return onDemand[each.name] < kMaxOnDemand; };
     for (int n = 1; std::ranges::any_of(presented_, isLeft); ++n) {
         const auto wanted = stage_.ask(row::kPhase, fmt::format("on demand {}", n),
-                                       choicePrompt("on-demand", "Feel one again, or go on?", offered));
+                                       choicePrompt("on-demand", words.text("demand.question"), offered));
         if (!wanted) return failure(wanted);
         const auto key = textOr(*wanted, "key");
         const auto at = std::ranges::find(presented_, key, &PresentedCondition::name);
@@ -200,8 +203,9 @@ Result<void> PilotIdentification::familiarise() {
         trial.screen.named = trial.felt.named = at->name;
         const auto felt = stage_.trial(trial);
         if (!felt) return failure(felt);
-        if (++onDemand[key] == kMaxOnDemand)
-            std::ranges::find(offered, key, &PromptTarget::key)->text += fmt::format(" (felt {} times)", kMaxOnDemand);
+        if (++onDemand[key] < kMaxOnDemand) continue;
+        auto& text = std::ranges::find(offered, key, &PromptTarget::key)->text;
+        text = words.text("demand.felt", {{"name", text}, {"times", fmt::format("{}", kMaxOnDemand)}});
     }
     return {};
 }
@@ -246,6 +250,9 @@ Result<void> PilotIdentification::feedback(const PlannedTrial& planned, const St
 
 Result<void> PilotIdentification::testBlock(int block) {
     if (auto ready = prepare(); !ready) return ready;
+    if (block == 1) {
+        if (auto read = stage_.instruct("test"); !read) return read;
+    }
     std::vector<PlannedTrial> silent;
     for (const auto& planned : of(TrialPhase::Test)) {
         if (planned.block != static_cast<std::size_t>(block)) continue;
@@ -309,9 +316,11 @@ Result<bool> PilotIdentification::driftCheck(int block) {
 
 /// The weakest level is hardly felt any more, and rests did not help: the participant decides whether to continue.
 Result<bool> PilotIdentification::goesOnAdapted(int block) {
-    const auto said = stage_.ask(row::kPhase, fmt::format("ending before block {}", block),
-                                 choicePrompt("ending", "You may feel the weakest less by now. Go on, or end here?",
-                                              {{"go-on", "Go on"}, {"end", "End here"}}));
+    const auto& words = stage_.words();
+    const auto said =
+        stage_.ask(row::kPhase, fmt::format("ending before block {}", block),
+                   choicePrompt("ending", words.text("ending.question"),
+                                {{"go-on", words.text("answer.go-on")}, {"end", words.text("ending.end")}}));
     if (!said) return failure(said);
     return textOr(*said, "key") != "end";
 }
@@ -332,7 +341,8 @@ Result<void> PilotIdentification::takeBreak(int block, Seconds time) {
     screen.until = stage_.bench().clock().now() + toInstant(time);
     stage_.participant().show(screen);
     if (auto passed = stage_.pass(time); !passed) return passed;
-    const auto on = stage_.ask(row::kPhase, name, goOnPrompt("Go on when both of you want to."));
+    const auto on = stage_.ask(row::kPhase, name,
+                               goOnPrompt(stage_.words().text("break.question"), PromptTo::Both, stage_.words()));
     if (!on) return failure(on);
     if (auto kept = record.write(row::kBreakEnd, name); !kept) return kept;
     stage_.electrodesTouched();

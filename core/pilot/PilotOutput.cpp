@@ -208,7 +208,7 @@ Result<void> PilotOutput::takeBreak(const std::string& during, PilotScreen scree
         return hindrance && hindrance->isBreak;
     };
     if (auto over = idleWhile(name, screen, lasts); !over) return over;
-    if (auto wanted = askToGoOn("The break is over. Go on when you want to."); !wanted) return wanted;
+    if (auto wanted = askToGoOn("after.break"); !wanted) return wanted;
     unmeasured_ = true;
     return record.write(row::kBreakEnd, name);
 }
@@ -242,10 +242,10 @@ Result<void> PilotOutput::afterThePause(const StageTrial& trial) {
     stage_.participant().show({});  // the participant may let go
     PilotScreen screen;
     screen.state = ScreenState::Break;
-    screen.text = "Paused. Nothing is on.";
+    screen.text = stage_.words().text("paused.text");
     if (auto over = idleWhile(trial.name, screen, [this] { return isPaused(); }); !over) return over;
     unmeasured_ = true;
-    return askToGoOn("The pause is over. Nothing is on. Go on when you want to.");
+    return askToGoOn("after.pause");
 }
 
 // recover(): after a stop, a fault or a lost screen
@@ -264,7 +264,7 @@ Result<void> PilotOutput::recover(const std::string& during, const Error& why) {
     if (auto goesOn = interrupted(during, why); !goesOn) return goesOn;
     if (const auto hindrance = stage_.participant().hindrance(); paused && hindrance && hindrance->isBreak)
         return takeBreak(during, {});
-    return askToGoOn("Stopped. Nothing is on. Go on when you want to.");
+    return askToGoOn("after.stop");
 }
 
 Result<void> PilotOutput::interrupted(const std::string& during, const Error& why) {
@@ -382,8 +382,7 @@ Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& 
     }
     electrodesTouched();
     ramp_.becomeDue();
-    return askToGoOn(slow ? "The computer was too slow, so the output is off. Go on when you want to."
-                          : "The output was off because of a fault. Go on when you want to.");
+    return askToGoOn(slow ? "after.slow" : "after.fault");
 }
 
 Result<void> PilotOutput::beginAnew(StopMark mark) {
@@ -392,9 +391,11 @@ Result<void> PilotOutput::beginAnew(StopMark mark) {
     return begun;
 }
 
-Result<void> PilotOutput::askToGoOn(const std::string& text) {
+/// `key`: of the words that the participant reads.
+Result<void> PilotOutput::askToGoOn(const char* key) {
+    const auto& words = stage_.words();
     PilotScreen screen;
-    screen.text = text;
+    screen.text = words.text(key);
     auto& bench = stage_.bench();
     for (;;) {
         stage_.participant().show(screen);
@@ -404,7 +405,7 @@ Result<void> PilotOutput::askToGoOn(const std::string& text) {
             if (auto goesOn = interrupted("go on", why); !goesOn) return goesOn;
             continue;
         }
-        const auto asked = stage_.participant().ask(goOnPrompt(text, PromptTo::Participant));
+        const auto asked = stage_.participant().ask(goOnPrompt(screen.text, PromptTo::Participant, words));
         const auto begun = asked ? beginAnew(mark) : Result<void>(failure(asked));
         if (begun) break;
         // The output is off and the participant presses STOP again: the stop counts, and they are asked again.
@@ -442,7 +443,7 @@ Result<void> LevelRamp::reach() {
     if (accepted.empty()) return {};
     PilotScreen letGo;  // the levels stop rising, so the participant may let go
     letGo.phase = "ascending";
-    letGo.text = "You can let go now.";
+    letGo.text = stage_.words().text("hold.let-go");
     stage_.participant().show(letGo);
     return {};
 }
@@ -459,7 +460,7 @@ Result<void> LevelRamp::presentAgain(const std::string& name, double level, cons
     again.about = {{row::kRamp, true}};
     again.level = level;
     again.presentation = ascendingPresentation(stage_.levelOf(level), stage_.settings().shortest);
-    again.prompt = strengthPrompt();
+    again.prompt = strengthPrompt(stage_.words());
     again.screen.state = ScreenState::Feel;
     again.screen.phase = "ascending";
     again.held = true;

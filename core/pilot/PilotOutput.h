@@ -128,7 +128,7 @@ private:
     [[nodiscard]] Result<void> noteStop(const std::string& during, const Error& why);
     [[nodiscard]] Result<void> noteParticipantStop(const std::string& during, const char* by);
     [[nodiscard]] Result<void> noteAbort(const std::string& during);
-    [[nodiscard]] Result<void> askToGoOn(const std::string& text);
+    [[nodiscard]] Result<void> askToGoOn(const char* key);
     [[nodiscard]] Result<void> askToSee(const std::string& why);
     [[nodiscard]] Result<void> askAboutTheComputer();
     [[nodiscard]] Result<void> measureTouched();

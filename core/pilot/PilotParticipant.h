@@ -32,6 +32,13 @@ struct FeltPresentation {
     std::string drawnFor;
 };
 
+/// What a session has on disk. It changes at the same moments of a trial for every condition, level and answer.
+struct PilotCounts {
+    int answers = 0;  ///< answers to presentations
+    int voided = 0;   ///< presentations that were begun and do not count
+    int blocks = 0;   ///< of the test
+};
+
 /// An obstacle to a presentation that is not a fault.
 struct Hindrance {
     bool isBreak = false;  ///< the operator wants a break; if false, see `why`
@@ -59,6 +66,8 @@ public:
     /// there is no one to answer; Device when the screen is gone.
     /// A prompt named "stop-test" (of kind GoOn) is answered by pressing STOP, and so returns Stopped.
     [[nodiscard]] virtual Result<PilotAnswer> ask(const PilotPrompt& prompt) = 0;
+    /// Tells the operator how far the session is. Does not wait.
+    virtual void counted(const PilotCounts& /*counts*/) {}
     /// Tells the participant what was just presented, before the question about it.
     virtual void delivered(const FeltPresentation& felt) = 0;
     /// Returns and forgets the presses since the last show() that came before the targets.

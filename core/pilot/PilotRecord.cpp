@@ -35,6 +35,7 @@ void PilotRecord::keep(std::string_view kind, const Json& body) {
     const auto name = textOr(body, "name");
     ++counts_[std::string(kind)];
     if (kind == row::kTrialBegin) ++begun_[name];
+    if (kind == row::kAnswer && !textOr(body, "response").empty()) ++answers_;
     last_[{std::string(kind), name}] = body;
 }
 
@@ -79,6 +80,11 @@ std::size_t PilotRecord::count(std::string_view kind) const {
 std::size_t PilotRecord::begun(const std::string& name) const {
     const auto found = begun_.find(name);
     return found != begun_.end() ? found->second : 0;
+}
+
+std::size_t PilotRecord::voided() const {
+    const auto begun = count(row::kTrialBegin), ended = count(row::kAnswer) + count(row::kNoAnswer);
+    return begun - std::min(begun, ended);
 }
 
 PilotTrials pilotTrials(const std::vector<SessionRow>& rows) {
@@ -145,7 +151,12 @@ RecordFields<PlanRow> planFields() {
     all.number("seed", &P::seed);
     all.text("encoding", &P::encoding, {.mayBeEmpty = true});
     all.number("blocks", &P::blocks);
-    all.texts({{"run_sha256", &P::runSha256}, {"answers", &P::answers}}, {.mayBeEmpty = true});
+    all.texts({{"run_sha256", &P::runSha256},
+               {"answers", &P::answers},
+               {"language", &P::language},
+               {"words_version", &P::wordsVersion},
+               {"words_sha256", &P::wordsSha256}},
+              {.mayBeEmpty = true});
     return all;
 }
 

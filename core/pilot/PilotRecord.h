@@ -111,6 +111,10 @@ public:
     [[nodiscard]] std::size_t count(std::string_view kind) const;
     /// How often the trial named `name` was begun.
     [[nodiscard]] std::size_t begun(const std::string& name) const;
+    /// Number of answers to presentations, in all parts; presentations without a question have none.
+    [[nodiscard]] std::size_t answers() const noexcept { return answers_; }
+    /// Number of presentations that were begun and have no row of their end.
+    [[nodiscard]] std::size_t voided() const;
     /// Whether earlier parts have rows, which are replayed.
     [[nodiscard]] bool isResumed() const noexcept { return resumed_; }
     /// Number of rows that this part has written. If it is not 0, rows are no longer replayed.
@@ -129,6 +133,7 @@ private:
     std::map<std::pair<std::string, std::string>, Json, std::less<>> last_;
     std::map<std::string, std::size_t, std::less<>> counts_;
     std::map<std::string, std::size_t, std::less<>> begun_;
+    std::size_t answers_ = 0;
     bool resumed_ = false;
     std::size_t written_ = 0;
 };
@@ -185,6 +190,8 @@ struct PlanRow {
     std::uint64_t blocks = 0;
     std::string runSha256;
     std::string answers;  ///< the conditions in the order of the answer places, with commas; empty: kAnswerPlaces
+    // What the participant reads; empty in sessions of before words were files, which were in English.
+    std::string language = {}, wordsVersion = {}, wordsSha256 = {};
 };
 [[nodiscard]] nlohmann::json toJson(const PlanRow& row);
 /// Members that cannot be read keep their defaults, here and in the two functions below.

@@ -14,6 +14,7 @@
 #include "core/analysis/psychophysics/LevelGrid.h"
 #include "core/base/Units.h"
 #include "core/encoding/EncodingProfile.h"
+#include "core/pilot/ParticipantWords.h"
 #include "core/study/Participant.h"
 #include "core/study/StudySettings.h"
 
@@ -57,8 +58,9 @@ struct PilotSettings {
     std::vector<Condition> conditions = EncodingProfile::fourConditions(0, 1);
     std::vector<std::string> answers;  ///< the conditions in the order of the answer places; empty: kAnswerPlaces
     int blocks = 5;
-    int perCondition = 4;   ///< presentations of each condition in a block
-    int catchTrials = 2;    ///< number in a block
+    int perCondition = 4;                                  ///< presentations of each condition in a block
+    int catchTrials = 2;                                   ///< number in a block
+    ParticipantWords words = ParticipantWords::english();  ///< what the participant reads
     std::string runSha256;  ///< hash of the protocol and its inputs (runHash()); a resume must have the same hash
     int painCeiling = kPainCeiling;
     std::vector<PilotHold> holds;  ///< holds from earlier sessions; must be answered before anything is presented

@@ -111,7 +111,7 @@ Result<StageAnswer> PilotStage::trial(const StageTrial& trial) {
         if (auto armed = ready(); !armed) return failure(armed);
         if (participant_.hindrance()) continue;
         if (trial.held && !participant_.holding()) {
-            if (auto held = hold(); !held) return failure(held);
+            if (auto held = hold(holdPrompt(words())); !held) return failure(held);
             continue;  // a stop may have come before they held: arms again
         }
         const auto number = record_.begun(trial.name) + 1;
@@ -175,6 +175,10 @@ void PilotStage::feel(const StageTrial& trial) {
     participant_.delivered(felt);
 }
 
+void PilotStage::tellCounts() {
+    participant_.counted({static_cast<int>(record_.answers()), static_cast<int>(record_.voided()), settings_.blocks});
+}
+
 void PilotStage::given(const StageTrial& trial) noexcept {
     if (trial.counts) stimulated_ += lengthOf(trial);
 }
@@ -190,6 +194,7 @@ PilotStage::Json PilotStage::about(const StageTrial& trial, std::size_t attempt)
 
 Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, std::size_t number, std::size_t& late) {
     Json about = this->about(trial, number);
+    tellCounts();
     if (auto kept = record_.write(row::kTrialBegin, trial.name, about); !kept) return failure(kept);
 
     auto screen = trial.screen;
@@ -253,6 +258,7 @@ Result<std::optional<StageAnswer>> PilotStage::attempt(const StageTrial& trial, 
     auto kept = answer.given ? record_.write(row::kAnswer, trial.name, std::move(about))
                              : record_.write(row::kNoAnswer, silentName(trial), std::move(about));
     if (!kept) return failure(kept);
+    tellCounts();
     given(trial);
     return std::optional(answer);
 }
@@ -330,12 +336,19 @@ Result<void> PilotStage::answeredFor(const PilotHold& held) {
     }
 }
 
+Result<void> PilotStage::instruct(const std::string& phase) {
+    rest();
+    const auto text = words().text("instruction." + phase);
+    const auto read = ask(row::kPhase, "instruction " + phase, goOnPrompt(text, PromptTo::Participant, words()));
+    return read ? Result<void>() : failure(read);
+}
+
 Result<bool> PilotStage::meantTooStrong(const std::string& trial) {
     rest();
     PilotScreen letGo;  // the participant may let go: both hands are free for the answer
     letGo.phase = "ascending";
     participant_.show(letGo);
-    const auto said = ask(row::kPhase, row::meantName(trial), meantPrompt());
+    const auto said = ask(row::kPhase, row::meantName(trial), meantPrompt(words()));
     if (!said) return failure(said);
     return textOr(*said, "key") != "no";
 }

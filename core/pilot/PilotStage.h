@@ -77,10 +77,12 @@ public:
     [[nodiscard]] Result<void> ready() { return output_.ready(); }
     /// Arms without presenting, for the test of the STOPs. If the output is real, the operator confirms it by name.
     [[nodiscard]] Result<void> arm() { return output_.arm(); }
+    /// Switches the output off and has the participant read how `phase` goes ("ascending"), once in a session.
+    [[nodiscard]] Result<void> instruct(const std::string& phase);
     /// Switches the output off until the operator has answered by name for the event `held`. Asks once for each event.
     [[nodiscard]] Result<void> answeredFor(const PilotHold& held);
     /// Asks the participant to hold (letting go stops the output) and waits until they do.
-    [[nodiscard]] Result<void> hold(const PilotPrompt& prompt = holdPrompt());
+    [[nodiscard]] Result<void> hold(const PilotPrompt& prompt);
     /// Records the impedance as `name`, with nothing armed before or after. NaN if the stimulator reads nothing back.
     [[nodiscard]] Result<double> measureImpedance(const std::string& name) { return output_.measureImpedance(name); }
     /// Sets a function that measures the electrodes, which may have changed. Called before anything is armed after a
@@ -137,6 +139,7 @@ public:
     [[nodiscard]] PilotRecord& record() noexcept { return record_; }
     [[nodiscard]] const PilotSettings& settings() const noexcept { return settings_; }
     [[nodiscard]] PilotSettings& settings() noexcept { return settings_; }
+    [[nodiscard]] const ParticipantWords& words() const noexcept { return settings_.words; }
     /// One step of the output in mA, or as an intensity.
     [[nodiscard]] double step() const;
     [[nodiscard]] StimulusLevel levelOf(double level) const;
@@ -160,6 +163,7 @@ private:
     [[nodiscard]] std::function<void(Seconds, Instant)> passing(const StageTrial& trial);
     [[nodiscard]] Result<void> writeEarly(const StageTrial& trial);
     void feel(const StageTrial& trial);
+    void tellCounts();
     void given(const StageTrial& trial) noexcept;
 
     Bench& bench_;

@@ -58,6 +58,7 @@ Result<LevelGrid> PilotThresholds::ascendingGrid() {
 }
 
 Result<void> PilotThresholds::ascendingLimits() {
+    if (auto read = stage_.instruct("ascending"); !read) return read;
     auto grid = ascendingGrid();
     if (!grid) return failure(grid);
     grid_ = *grid;
@@ -75,7 +76,7 @@ Result<void> PilotThresholds::ascendingLimits() {
     if (liveSeries_ > 0) {
         PilotScreen rest;  // levels stop rising: the participant may let go
         rest.phase = "ascending";
-        rest.text = "You can let go now.";
+        rest.text = stage_.words().text("hold.let-go");
         stage_.participant().show(rest);
     }
     return {};
@@ -88,7 +89,7 @@ Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPr
     trial.about = {{"series", series}};
     trial.level = next.level;
     trial.presentation = ascendingPresentation(stage_.levelOf(next.level), stage_.settings().shortest);
-    trial.prompt = strengthPrompt();
+    trial.prompt = strengthPrompt(stage_.words());
     trial.screen.state = ScreenState::Feel;
     trial.screen.phase = "ascending";
     trial.screen.block = static_cast<int>(next.series);
@@ -100,7 +101,8 @@ Result<void> PilotThresholds::present(AscendingLimits& limits, const AscendingPr
         if (auto armed = stage_.ready(); !armed) return armed;
         // After an interruption the series continues at the level that the ramp has reached again.
         const bool begins = liveSeries_ > 0 || limits.result().series.back().highest == 0;
-        const auto prompt = begins ? seriesPrompt(next.series, AscendingLimits::kSeries) : holdPrompt();
+        const auto prompt =
+            begins ? seriesPrompt(next.series, AscendingLimits::kSeries, stage_.words()) : holdPrompt(stage_.words());
         if (auto held = stage_.hold(prompt); !held) return held;
         if (begins) {
             if (auto begun = stage_.bench().beginAscending(); !begun) return begun;
@@ -160,6 +162,7 @@ Result<void> PilotThresholds::detection(DetectionMethod method) {
     auto below = belowTooStrong();
     if (!below) return failure(below);
     detectionGrid_ = *below;
+    if (auto read = stage_.instruct("detection"); !read) return read;
     auto done = method == DetectionMethod::Quest ? measureBy<QuestPlus>(QuestPlusSettings{})
                                                  : measureBy<Staircase>(StaircaseSettings{});
     if (!done) return done;
@@ -178,7 +181,7 @@ Result<TrialInterval> PilotThresholds::twoIntervals(const std::string& name, con
     const auto& settings = stage_.settings();
     trial.presentation = detectionPresentation(stage_.levelOf(asked.level), asked.interval == TrialInterval::Second,
                                                trainLength(stage_.bench(), settings.unit), settings.shortest);
-    trial.prompt = intervalPrompt();
+    trial.prompt = intervalPrompt(stage_.words());
     trial.screen.phase = phase;
     return askInterval(std::move(trial), asked.interval, asked.number);
 }
@@ -232,7 +235,8 @@ Result<void> PilotThresholds::range() {
             trial.name = fmt::format("range {}", ++ranged_);
             trial.level = *level;
             trial.presentation = testPresentation(stage_.levelOf(*level), stage_.settings().shortest, kFeltBeforeAsked);
-            trial.prompt = yesNoPrompt("half-an-hour", "Could you feel half an hour of this?");
+            trial.prompt = yesNoPrompt("half-an-hour", stage_.words().text("range.question"), PromptTo::Participant,
+                                       stage_.words());
             trial.screen.state = ScreenState::Feel;
             trial.screen.phase = "range";
             const auto answer = stage_.trial(trial);
@@ -307,7 +311,7 @@ Result<void> PilotThresholds::comparison() {
         trial.presentation = comparisonPresentation(stage_.levelOf(second ? weaker : stronger),
                                                     stage_.levelOf(second ? stronger : weaker),
                                                     trainLength(stage_.bench(), settings.unit), settings.shortest);
-        trial.prompt = comparisonPrompt();
+        trial.prompt = comparisonPrompt(stage_.words());
         trial.screen.phase = "comparison";
         const auto said = askInterval(std::move(trial), next->interval, next->number);
         if (!said) return failure(said);

@@ -5,6 +5,7 @@
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/base/LocaleFreeText.h"
 #include "core/base/Words.h"
+#include "core/pilot/PilotRecord.h"
 
 namespace tacto {
 
@@ -41,36 +42,42 @@ std::string capitalised(std::string words) {
 std::string_view nameOf(PromptTo to) noexcept { return wordFor<PromptTo>(kPromptTo, to); }
 std::string_view nameOf(PromptKind kind) noexcept { return wordFor<PromptKind>(kPromptKinds, kind); }
 
-PilotPrompt holdPrompt() {
-    return prompt(PromptKind::Hold, "hold", "Hold the key while the level rises. Letting go stops at once.", {});
+std::string conditionWords(std::string_view key, const ParticipantWords& words) {
+    return words.text("condition", key, answerWords(key));
 }
 
-PilotPrompt seriesPrompt(std::size_t series, std::size_t of) {
+PilotPrompt holdPrompt(const ParticipantWords& words) {
+    return prompt(PromptKind::Hold, "hold", words.text("hold.text"), {});
+}
+
+PilotPrompt seriesPrompt(std::size_t series, std::size_t of, const ParticipantWords& words) {
     auto made = holdPrompt();
-    made.text = fmt::format("Series {} of {} starts from zero. {}", series, of, made.text);
+    made.text = words.text("hold.series", {{"series", fmt::format("{}", series)}, {"of", fmt::format("{}", of)}});
     return made;
 }
 
-PilotPrompt strengthPrompt() {
-    return prompt(PromptKind::Strength, "strength", "What did you feel?",
-                  {{"nothing", "Nothing"}, {"weak", "Weak"}, {"strong", "Strong"}, {"too-strong", "Too strong"}});
-}
-
-PilotPrompt meantPrompt() {
-    auto made = yesNoPrompt("meant", "You said “too strong”. The output is off. Was it too strong?");
-    made.targets = {{"yes", "Yes, too strong"}, {"no", "No, a slip"}};
+PilotPrompt strengthPrompt(const ParticipantWords& words) {
+    auto made = prompt(PromptKind::Strength, "strength", words.text("strength.question"), {});
+    for (const char* key : {"nothing", "weak", "strong", row::kTooStrong})
+        made.targets.push_back({key, words.text("strength", key, key)});
     return made;
 }
 
-PilotPrompt intervalPrompt() {
-    return prompt(PromptKind::Interval, "interval", "Was it in the first or in the second interval? Guess if unsure.",
-                  {{"first", "First"}, {"second", "Second"}});
+PilotPrompt meantPrompt(const ParticipantWords& words) {
+    auto made = yesNoPrompt("meant", words.text("meant.question"));
+    made.targets = {{"yes", words.text("meant.yes")}, {"no", words.text("meant.no")}};
+    return made;
 }
 
-PilotPrompt comparisonPrompt() {
-    auto made = intervalPrompt();
+PilotPrompt intervalPrompt(const ParticipantWords& words) {
+    return prompt(PromptKind::Interval, "interval", words.text("interval.question"),
+                  {{"first", words.text("interval.first")}, {"second", words.text("interval.second")}});
+}
+
+PilotPrompt comparisonPrompt(const ParticipantWords& words) {
+    auto made = intervalPrompt(words);
     made.name = "comparison";
-    made.text = "Was it stronger in the first or in the second interval? Guess if unsure.";
+    made.text = words.text("comparison.question");
     return made;
 }
 
@@ -86,20 +93,21 @@ std::vector<std::string> answersIn(std::size_t way) {
     return answers;
 }
 
-PilotPrompt conditionPrompt(const std::vector<std::string>& names) {
+PilotPrompt conditionPrompt(const std::vector<std::string>& names, const ParticipantWords& words) {
     std::vector<PromptTarget> targets;
     std::vector<std::string> answers = names;
     answers.insert(answers.end(), {std::string(kNoneResponse), std::string(kNotSureResponse)});
-    for (const auto& key : answers) targets.push_back({key, capitalised(answerWords(key))});
-    return prompt(PromptKind::Condition, "identification", "What did you feel?", std::move(targets));
+    for (const auto& key : answers) targets.push_back({key, capitalised(conditionWords(key, words))});
+    return prompt(PromptKind::Condition, "identification", words.text("condition.question"), std::move(targets));
 }
 
-PilotPrompt yesNoPrompt(std::string name, std::string text, PromptTo to) {
-    return prompt(PromptKind::YesNo, std::move(name), std::move(text), {{"yes", "Yes"}, {"no", "No"}}, to);
+PilotPrompt yesNoPrompt(std::string name, std::string text, PromptTo to, const ParticipantWords& words) {
+    return prompt(PromptKind::YesNo, std::move(name), std::move(text),
+                  {{"yes", words.text("answer.yes")}, {"no", words.text("answer.no")}}, to);
 }
 
-PilotPrompt goOnPrompt(std::string text, PromptTo to) {
-    return prompt(PromptKind::GoOn, "go-on", std::move(text), {{"go-on", "Go on"}}, to);
+PilotPrompt goOnPrompt(std::string text, PromptTo to, const ParticipantWords& words) {
+    return prompt(PromptKind::GoOn, "go-on", std::move(text), {{"go-on", words.text("answer.go-on")}}, to);
 }
 
 PilotPrompt scalePrompt(std::string name, std::string text, int least, int most, PromptTo to) {

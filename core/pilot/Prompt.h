@@ -15,6 +15,7 @@
 
 #include "core/base/Statistics.h"
 #include "core/base/Units.h"
+#include "core/pilot/ParticipantWords.h"
 
 namespace tacto {
 
@@ -77,6 +78,9 @@ struct EarlyPress {
     Instant at{0};
 };
 
+/// The name of a condition or of another answer to "what did you feel?".
+[[nodiscard]] std::string conditionWords(std::string_view key, const ParticipantWords& words);
+
 /// What the two screens show. Only `operatorText` and `named` may depend on a condition.
 enum class ScreenState {
     Rest,      ///< nothing happens
@@ -99,7 +103,7 @@ struct PilotScreen {
     int interval = 0;              ///< state Interval: 1 or 2; 0: before, between or after the two intervals
     std::string named;             ///< state Named: the name of what is or was felt
     std::optional<bool> right;     ///< training: true if the answer was right
-    std::optional<Instant> until;  ///< state Break: the earliest end of the break
+    std::optional<Instant> until;  ///< the earliest end of a break, or of what `operatorText` waits for
     std::string text;              ///< what the participant reads; the same for every condition
     std::string operatorText;      ///< what the operator reads; hidden while the operator is blind
     bool operatorMayKnow = false;  ///< `operatorText` contains nothing that depends on a condition
@@ -116,18 +120,22 @@ inline constexpr std::size_t kAnswerWays = 8;
 /// `way` must be below kAnswerWays.
 [[nodiscard]] std::vector<std::string> answersIn(std::size_t way);
 
-// Prompts with fixed texts.
-[[nodiscard]] PilotPrompt holdPrompt();
+// Prompts in the words of the participant.
+[[nodiscard]] PilotPrompt holdPrompt(const ParticipantWords& words = ParticipantWords::english());
 /// Before a series of rising levels, which begins at zero.
-[[nodiscard]] PilotPrompt seriesPrompt(std::size_t series, std::size_t of);
-[[nodiscard]] PilotPrompt strengthPrompt();
-[[nodiscard]] PilotPrompt meantPrompt();
-[[nodiscard]] PilotPrompt intervalPrompt();
-[[nodiscard]] PilotPrompt comparisonPrompt();
+[[nodiscard]] PilotPrompt seriesPrompt(std::size_t series, std::size_t of,
+                                       const ParticipantWords& words = ParticipantWords::english());
+[[nodiscard]] PilotPrompt strengthPrompt(const ParticipantWords& words = ParticipantWords::english());
+[[nodiscard]] PilotPrompt meantPrompt(const ParticipantWords& words = ParticipantWords::english());
+[[nodiscard]] PilotPrompt intervalPrompt(const ParticipantWords& words = ParticipantWords::english());
+[[nodiscard]] PilotPrompt comparisonPrompt(const ParticipantWords& words = ParticipantWords::english());
 /// `names`: keys of the conditions, in the order of the places.
-[[nodiscard]] PilotPrompt conditionPrompt(const std::vector<std::string>& names);
-[[nodiscard]] PilotPrompt yesNoPrompt(std::string name, std::string text, PromptTo to = PromptTo::Participant);
-[[nodiscard]] PilotPrompt goOnPrompt(std::string text, PromptTo to = PromptTo::Both);
+[[nodiscard]] PilotPrompt conditionPrompt(const std::vector<std::string>& names,
+                                          const ParticipantWords& words = ParticipantWords::english());
+[[nodiscard]] PilotPrompt yesNoPrompt(std::string name, std::string text, PromptTo to = PromptTo::Participant,
+                                      const ParticipantWords& words = ParticipantWords::english());
+[[nodiscard]] PilotPrompt goOnPrompt(std::string text, PromptTo to = PromptTo::Both,
+                                     const ParticipantWords& words = ParticipantWords::english());
 [[nodiscard]] PilotPrompt scalePrompt(std::string name, std::string text, int least, int most,
                                       PromptTo to = PromptTo::Participant);
 [[nodiscard]] PilotPrompt choicePrompt(std::string name, std::string text, std::vector<PromptTarget> targets,

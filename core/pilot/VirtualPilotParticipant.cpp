@@ -26,7 +26,13 @@ bool isSame(const DeliveredCondition& learned, const FeltPresentation& felt) {
 VirtualPilotParticipant::VirtualPilotParticipant(VirtualObserver observer, std::vector<std::string> conditions)
     : observer_(observer), conditions_(std::move(conditions)) {}
 
-void VirtualPilotParticipant::show(const PilotScreen&) {}
+void VirtualPilotParticipant::show(const PilotScreen& screen) {
+    if (onShow) onShow(screen);
+}
+
+void VirtualPilotParticipant::counted(const PilotCounts& counts) {
+    if (onCounted) onCounted(counts);
+}
 
 void VirtualPilotParticipant::cancel() noexcept {}
 

@@ -7,6 +7,7 @@
 // Thread-safety: as PilotParticipant.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -23,6 +24,10 @@ public:
     VirtualPilotParticipant(VirtualObserver observer, std::vector<std::string> conditions);
 
     void show(const PilotScreen& screen) override;
+    void counted(const PilotCounts& counts) override;
+    /// Called with each screen, and with each count; may be empty.
+    std::function<void(const PilotScreen&)> onShow;
+    std::function<void(const PilotCounts&)> onCounted;
     [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override;
     void delivered(const FeltPresentation& felt) override;
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override { return {}; }

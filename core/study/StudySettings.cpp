@@ -82,6 +82,13 @@ RecordFields<StudyProcedure> procedureFields() {
     return all;
 }
 
+RecordFields<WordsHash> wordsFields() {
+    using W = WordsHash;
+    RecordFields<W> all;
+    all.texts({{"language", &W::code}, {"version", &W::version}, {"sha256", &W::sha256}}, kShortText);
+    return all;
+}
+
 template <class Named>
 RecordFields<Named> namedHashFields(std::string_view name, std::string Named::*member) {
     RecordFields<Named> all;
@@ -122,6 +129,7 @@ RecordFields<StudySettings> buildStudyFields() {
     all.list("exclusions", &S::exclusions, textKind(kShortText), 0, kMaxOwnExclusions);
     all.text("license", &S::license, kOptionalText);
     all.list("scripts", &S::scripts, namedHashFields<ScriptHash>("name", &ScriptHash::name).kind(), 0, 100);
+    all.list("words", &S::words, wordsFields().kind(), 0, 100);
     all.record("procedure", &S::procedure, procedureFields());
     all.rule([](const S& settings) -> Result<void> {
         if (settings.conditions == kTexturePressure) return {};
@@ -179,6 +187,10 @@ std::string_view nameOf(DetectionMethod method) noexcept { return wordFor<Detect
 
 std::string_view nameOf(DataOnRequest kept) noexcept { return wordFor<DataOnRequest>(kDataOnRequest, kept); }
 
+std::string nameOf(const WordsHash& words) {
+    return fmt::format("{}, version {} ({:.12}…)", words.code, words.version, words.sha256);
+}
+
 const RecordFields<StudySettings>& studyFields() { return builtOnce<buildStudyFields>(); }
 
 Result<void> setStudyField(StudySettings& settings, std::string_view key, std::string_view value) {
@@ -186,6 +198,7 @@ Result<void> setStudyField(StudySettings& settings, std::string_view key, std::s
                                                 "kind",
                                                 "limits",
                                                 "scripts",
+                                                "words",
                                                 "approval.reference",
                                                 "approval.from",
                                                 "approval.expires",
@@ -231,6 +244,7 @@ std::string protocolHash(const StudySettings& settings) {
     auto json = studyFields().write(settings);
     for (const char* key : {"id", "approval", "license"}) json.erase(key);
     if (!settings.procedure) json.erase("procedure");
+    if (settings.words.empty()) json.erase("words");
     if (!settings.painCeiling) json.erase("pain_ceiling");
     if (!settings.ageMin) json.erase("age_min");
     if (settings.exclusions.empty()) json.erase("exclusions");
@@ -299,6 +313,7 @@ std::vector<ProcedureFact> approvedProcedure(const StudySettings& settings) {
                                                  electrode.distance_mm)});
         all.push_back({"Train", trainWords(settings.train)});
     }
+    for (const auto& each : settings.words) all.push_back({"Words of the participant", nameOf(each)});
     if (const auto& procedure = settings.procedure) {
         all.push_back({"Intervals", fmt::format("{:g} to {:g} s from onset to onset", procedure->intervalMin_s,
                                                 procedure->intervalMax_s)});

@@ -57,6 +57,16 @@ struct ScriptHash {
     bool operator==(const ScriptHash&) const = default;
 };
 
+/// Words that the participant may read (core/pilot/ParticipantWords.h).
+struct WordsHash {
+    std::string code;  ///< the language: "de"
+    std::string version;
+    std::string sha256;
+    bool operator==(const WordsHash&) const = default;
+};
+/// Returns "de, version 1 (0123456789ab…)".
+[[nodiscard]] std::string nameOf(const WordsHash& words);
+
 struct StudyElectrode {
     std::string type = "self-adhesive";
     SquareCentimetres area{4};
@@ -125,6 +135,7 @@ struct StudySettings {
     std::vector<std::string> exclusions;      ///< the laboratory's own questions of the exclusion checklist
     std::string license;                      ///< the licence of exported data, such as "CC-BY-4.0"; empty: not decided
     std::vector<ScriptHash> scripts;          ///< the approved scripts; a session's script must be one of them
+    std::vector<WordsHash> words;             ///< approved; older studies state none until they are amended
     std::optional<StudyProcedure> procedure;  ///< approved; older studies have none until they are amended
     bool operator==(const StudySettings&) const = default;
 };
@@ -138,7 +149,8 @@ struct StudySettings {
 [[nodiscard]] Result<void> setStudyField(StudySettings& settings, std::string_view key, std::string_view value);
 
 /// Returns the hash for an approval's protocol_sha256: SHA-256 of the scripts and all settings except the approval
-/// itself and the licence of exports. A missing procedure is left out.
+/// itself and the licence of exports. A missing procedure is left out,
+/// and so are words that are not stated.
 [[nodiscard]] std::string protocolHash(const StudySettings& settings);
 /// Returns the hash of settings and procedure of a session: an interrupted session resumes only with the same hash.
 [[nodiscard]] std::string runHash(StudySettings settings, const StudyProcedure& procedure);

@@ -9,6 +9,7 @@ protocol({
   view: "none",
   parameters: {
     participant: { label: "Participant: a code, or virtual:SEED", type: "text", value: "" },
+    language: { label: "Language of the participant: a code such as de", type: "text", value: "" },
     unfinished: {
       label: "An unfinished session",
       type: "choice",

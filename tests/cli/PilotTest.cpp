@@ -1,9 +1,13 @@
 // A rehearsal from plan to confusion matrix, and how a session is refused, interrupted and continued.
+#include <filesystem>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/base/Csv.h"
+#include "core/session/Digest.h"
 #include "core/study/Study.h"
 #include "tests/cli/PilotDesk.h"
 
@@ -332,6 +336,61 @@ TEST(Pilot, AFullDiskEndsTheSessionWithoutOutputAndItGoesOnOnceThereIsRoom) {
     EXPECT_TRUE(value["results"]["resumed"].get<bool>());
     EXPECT_EQ(value["results"]["parts"], 2);
     EXPECT_EQ(planAndAnswers(value), planAndAnswers(jsonOf(whole)));
+}
+
+TEST(Pilot, TheParticipantReadsInTheirLanguageAndAFaultOfAFileIsOneSentence) {
+    RecordProperty("hazard", "H12");
+    const PilotDesk desk;
+    const Words few{"--set", "participant=virtual:7", "--seed", "1"};
+    const auto speaking = [&](const char* code) { return few + Words{"--set", fmt::format("language={}", code)}; };
+    const auto unknown = desk.run("pilot-thresholds", speaking("fr"));
+    EXPECT_EQ(unknown.code, 3);
+    EXPECT_THAT(unknown.err, HasSubstr("the language is \"fr\"; en, de is expected, or a file words/fr.json"));
+    const auto german = desk.run("pilot-thresholds", speaking("de"));
+    ASSERT_EQ(german.code, 0) << german.err;
+    const auto folder = std::filesystem::path(desk.desk().at("study"));
+    const auto study = Study::open(folder, nullptr, Study::Access::Read);
+    ASSERT_TRUE(study) << study.error().message;
+    const auto rows = study->events(study->sessions().back());
+    ASSERT_TRUE(rows);
+    const auto plan = std::ranges::find(*rows, std::string("plan"), &SessionRow::name);
+    ASSERT_NE(plan, rows->end());
+    EXPECT_EQ(plan->body["language"], "de");
+    EXPECT_EQ(plan->body["words_sha256"],
+              sha256Hex(readTextFile(sourceDir() / "resources/words/de.json", 100'000).value()));
+
+    std::filesystem::create_directories(folder / "words");
+    auto own = json::parse(readTextFile(sourceDir() / "resources/words/en.json", 100'000).value());
+    own["language"] = "Français";
+    const auto write = [&] { std::ofstream(folder / "words/fr.json") << own.dump(); };
+    write();
+    ASSERT_EQ(desk.run("pilot-thresholds", speaking("fr")).code, 0) << "another language by adding a file";
+    const auto listed = jsonOf(desk.desk().run({"study", "words", folder.string(), "--json"}))["words"];
+    ASSERT_EQ(listed.size(), 3U);
+    const auto read = jsonOf(desk.desk().run({"study", "words", folder.string(), "fr", "--json"}));
+    EXPECT_EQ(read["name"], "Français");
+    ASSERT_EQ(read["words"].size(), own["words"].size());
+    for (const auto& each : read["words"]) EXPECT_EQ(each["text"], own["words"][each["key"].get<std::string>()]);
+    own["words"].erase("pain.most");
+    write();
+    const auto sessions = std::distance(std::filesystem::directory_iterator(folder / "sessions"), {});
+    const auto broken = desk.run("pilot-thresholds", speaking("fr"));
+    EXPECT_EQ(broken.code, 3);
+    EXPECT_THAT(broken.err, HasSubstr("fr.json: \"pain.most\" is missing"));
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "sessions"), {}), sessions);
+}
+
+TEST(Pilot, ASessionGoesOnInTheWordsThatItWasBegunWith) {
+    RecordProperty("hazard", "H8");
+    const PilotDesk desk;
+    const auto german = shortSession() + Words{"--set", "language=de"};
+    ASSERT_EQ(desk.runKilled(300, "pilot-identification", german), -9);
+    const Words resume{"--set", "unfinished=resume"};
+    const auto other = desk.run("pilot-identification", shortSession() + resume + Words{"--set", "language=en"});
+    EXPECT_EQ(other.code, 4);
+    EXPECT_THAT(other.err, HasSubstr("was begun with the words de"));
+    const auto ran = desk.run("pilot-identification", shortSession() + resume);
+    EXPECT_EQ(ran.code, 0) << "its own are taken where none are named: " << ran.err;
 }
 
 TEST(Pilot, StudyTrialsSaysWhatIsOpen) {

@@ -93,6 +93,18 @@ TEST(SessionResults, ATrialAskedTwiceIsOneTrial) {
     EXPECT_EQ(silent.trials[0].trial.response, "");
 }
 
+TEST(SessionResults, ATooStrongThatWasTakenBackIsNoCeiling) {
+    for (const bool slip : {true, false}) {
+        const auto found = sessionResults(
+            {rowOf(row::kAnswer, "ascending 1", {{"series", 1}, {"current_ma", 8}, {"response", "too-strong"}}),
+             rowOf(row::kAnswer, "ascending 2", {{"series", 2}, {"current_ma", 1}, {"response", "too-strong"}}),
+             rowOf(row::kPhase, row::meantName("ascending 2").c_str(), {{"key", slip ? "no" : "yes"}})},
+            kLabels);
+        EXPECT_EQ(found.tooStrong, slip ? 8 : 1);
+        EXPECT_TRUE(found.saidTooStrong);
+    }
+}
+
 TEST(SessionResults, ThresholdsKeepTheirProcedures) {
     const auto found = sessionResults(
         {rowOf(row::kAnswer, "ascending 1", {{"series", 1}, {"current_ma", 4}, {"response", "strong"}, {"rt_s", 1}}),

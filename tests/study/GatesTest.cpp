@@ -111,7 +111,7 @@ TEST(Gates, AnApprovalIsForItsProcedureAndOldOnesKeepTheirHash) {
     RecordProperty("hazard", "H11");
     auto settings = approved();
     auto stored = studyFields().write(settings);
-    for (const char* key : {"id", "approval", "license", "procedure", "pain_ceiling", "age_min", "exclusions"})
+    for (const char* key : {"id", "approval", "license", "procedure", "pain_ceiling", "age_min", "exclusions", "words"})
         stored.erase(key);
     EXPECT_EQ(protocolHash(settings), sha256Hex(stored.dump())) << "as before there was one";
     settings.procedure.emplace();
@@ -120,6 +120,11 @@ TEST(Gates, AnApprovalIsForItsProcedureAndOldOnesKeepTheirHash) {
     EXPECT_TRUE(approvalGate(settings, kToday));
     settings.procedure->intervalMax_s = 3;
     EXPECT_EQ(approvalGate(settings, kToday).error().code, kGateRefused);
+    settings.procedure->intervalMax_s = 2;
+    EXPECT_TRUE(approvalGate(settings, kToday));
+    settings.words = {{"de", "1", std::string(64, 'a')}};
+    EXPECT_EQ(approvalGate(settings, kToday).error().code, kGateRefused) << "what participants read is approved too";
+    settings.words.clear();
     settings.procedure.reset();
     EXPECT_EQ(approvalGate(settings, kToday).error().code, kGateRefused) << "it cannot be taken out of the file";
 }

@@ -228,6 +228,8 @@ std::uint64_t BenchController::runPilot(const RunOrder& order, const PilotSeats&
             pilot.codeConfirmed = seats.codeConfirmed;
             pilot.exclusions = seats.exclusions;
             pilot.markers = seats.markers;
+            pilot.watch = seats.watch;
+            pilot.pace = seats.pace;
             auto made = PilotRun::prepare(marked, std::move(pilot), registry, std::move(tap));
             if (!made) return failure(made);
             const std::shared_ptr<PilotRun> run(std::move(*made));

@@ -54,6 +54,8 @@ struct PilotSeats {
     bool codeConfirmed = false;
     std::vector<ExclusionAnswer> exclusions = {};
     std::optional<MarkerAddress> markers = {};  ///< nothing: no markers are sent
+    PilotParticipant* watch = nullptr;          ///< as PilotOrder::watch
+    double pace = 0;                            ///< as PilotOrder::pace
     /// Called on the bench's thread before any question, with the session's clock and the number of the participant's
     /// stops in earlier parts. May be empty.
     std::function<void(std::shared_ptr<const Clock> clock, int stops)> begun = {};

@@ -32,7 +32,9 @@ QString whereText(const PilotScreen& screen) {
     QStringList words{phaseName(screen.phase)};
     if (screen.phase.empty()) words = QStringList(QObject::tr("Preparing"));
     if (screen.block > 0 && screen.blocks > 0)
-        words << QObject::tr("block %1 of %2").arg(screen.block).arg(screen.blocks);
+        words << (screen.phase == "ascending" ? QObject::tr("series %1 of %2") : QObject::tr("block %1 of %2"))
+                     .arg(screen.block)
+                     .arg(screen.blocks);
     else if (screen.block > 0)
         words << QObject::tr("block %1").arg(screen.block);
     if (screen.trial > 0 && screen.trials > 0)
@@ -114,8 +116,8 @@ QWidget* OperatorPage::buildBar() {
            "under way."),
         bar);
     connect(now_, &QPushButton::clicked, this, &OperatorPage::breakNowWanted);
-    kept_ = makeLabel<ElidedLabel>({}, {.name = "answersKept", .tone = Tone::Quiet, .size = TextSize::Small}, bar);
-    kept_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    onDisk_ = makeLabel<ElidedLabel>({}, {.name = "answersKept", .tone = Tone::Quiet, .size = TextSize::Small}, bar);
+    onDisk_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     abort_ = pageButton(tr("Abort session…"), "abortSession",
                         tr("First of two steps. Ends the session; what was answered is kept."), bar);
     connect(abort_, &QPushButton::clicked, this, [this] {
@@ -136,7 +138,7 @@ QWidget* OperatorPage::buildBar() {
     addAll(*sureRow, {reallyAbort_, back});
     sure_->hide();
     addAll(*row, {after_, now_});
-    row->addWidget(kept_, 1);
+    row->addWidget(onDisk_, 1);
     addAll(*row, {abort_, sure_});
     both->addLayout(row);
     return bar;
@@ -146,7 +148,9 @@ void OperatorPage::begin(const PilotStart& start) {
     blind_ = start.blind;
     screen_ = {};
     asked_.clear();
-    answered_ = repeated_ = seenTrial_ = seenBlock_ = 0;
+    virtual_ = !start.person;
+    kept_ = {};
+    at_ = Instant(0);
     theirs_.reset();
     vibrates_ = start.massager;
     trend_->clear();
@@ -165,11 +169,6 @@ void OperatorPage::begin(const PilotStart& start) {
 void OperatorPage::show(const PilotScreen& screen) {
     const bool test = screen.phase == "test";
     if (test && screen.trial > 0) {
-        if (screen.trial == seenTrial_ && screen.state == ScreenState::Dot && screen_.state != ScreenState::Dot)
-            ++repeated_;
-        if (screen.trial != seenTrial_) answered_ = std::max(answered_, screen.trial - 1);
-        seenTrial_ = screen.trial;
-        seenBlock_ = screen.block;
         if (screen.trials > 0) trend_->setPlan(screen.trials, std::max(1, screen.blocks));
         if (blind_) trend_->note(screen.trial, screen.impedance_ohm);
     }
@@ -177,19 +176,39 @@ void OperatorPage::show(const PilotScreen& screen) {
     if (screen.phase != screen_.phase) asked_.clear();
     screen_ = screen;
     showWhere();
-    const bool mayKnow = !blind_ || screen.operatorMayKnow;
-    const auto told = mayKnow ? qtext(screen.operatorText) : QString();
+    showTold();
+    showCounts();
+    refresh({});
+}
+
+void OperatorPage::count(const PilotCounts& counts) {
+    kept_ = counts;
+    showCounts();
+}
+
+std::optional<double> OperatorPage::waits_s() const {
+    if (!screen_.until || at_ == Instant(0)) return {};
+    return std::max(0.0, std::ceil(toSeconds(*screen_.until - at_)));
+}
+
+/// Says what is waited for, and what the operator may know.
+void OperatorPage::showTold() {
+    const bool mayKnow = !blind_ || screen_.operatorMayKnow;
+    auto told = mayKnow ? qtext(screen_.operatorText) : QString();
+    if (screen_.state == ScreenState::Break && screen_.until) told = tr("Break: both go on when they want to");
+    if (const auto left = waits_s(); left && !told.isEmpty())
+        told = *left > 0 ? tr("%1: %2 s left").arg(told).arg(*left) : tr("%1: the time is over").arg(told);
     hidden_->setText(!told.isEmpty() ? told
                      : blind_        ? tr("Hidden until the session ends: condition, level, interval, answers")
                                      : QString());
-    showCounts();
-    refresh({});
 }
 
 void OperatorPage::showWhere() { where_->setText(asked_.isEmpty() ? whereText(screen_) : asked_); }
 
 void OperatorPage::showCounts() {
-    QStringList words{tr("%1 answered").arg(answered_), tr("%1 repeated").arg(repeated_)};
+    QStringList words;
+    if (virtual_) words << tr("Nothing is asked of you");
+    words << (kept_.voided == 1 ? tr("1 trial voided") : tr("%1 trials voided").arg(kept_.voided));
     if (screen_.phase == "test" && screen_.blocks > 1 && screen_.block > 0 && screen_.block < screen_.blocks &&
         screen_.trials > 0) {
         const int last = int(std::lround(double(screen_.trials) / screen_.blocks * screen_.block));
@@ -197,7 +216,8 @@ void OperatorPage::showCounts() {
         words << tr("next break after trial %1, in about %2 min").arg(last).arg(std::max(1, int(std::lround(minutes))));
     }
     counts_->setText(words.join(" · "));
-    kept_->setText(answered_ == 1 ? tr("1 answer on disk") : tr("%1 answers on disk").arg(answered_));
+    counts_->setToolTip(counts_->text());
+    onDisk_->setText(kept_.answers == 1 ? tr("1 answer on disk") : tr("%1 answers on disk").arg(kept_.answers));
 }
 
 void OperatorPage::ask(const PilotPrompt& prompt, quint64 id) {
@@ -214,10 +234,6 @@ void OperatorPage::ask(const PilotPrompt& prompt, quint64 id) {
 void OperatorPage::closeQuestion(quint64 id) {
     ask_->close();
     if (!theirs_ || theirsId_ != id) return;
-    if (theirs_->kind == PromptKind::Condition && screen_.phase == "test") {
-        answered_ = std::max(answered_, screen_.trial);
-        showCounts();
-    }
     theirs_.reset();
     phaseSince_.start();
     refresh({});
@@ -226,6 +242,8 @@ void OperatorPage::closeQuestion(quint64 id) {
 void OperatorPage::refresh(const Telemetry& telemetry) {
     // A reading shows that a train was given, and no reading shows that none was, so a blind operator sees no point.
     if (!blind_ && screen_.phase == "test" && theirs_) trend_->note(screen_.trial, telemetry.impedance_ohm);
+    if (telemetry.at != Instant(0)) at_ = telemetry.at;
+    if (screen_.until) showTold();
     const double gone = double(phaseSince_.nsecsElapsed()) * 1e-9;
     if (theirs_) {
         if (!theirs_->within) return phase_->setPhase(PhaseBar::kAnswer);
@@ -262,11 +280,6 @@ void OperatorPage::keepRoomForObstacle() {
 void OperatorPage::setBreakDue(bool due) {
     breakDue_ = due;
     after_->setText(due ? tr("End the break") : tr("Break after this trial"));
-}
-
-void OperatorPage::setProgress(const QString& what, int done, int total) {
-    where_->setText(tr("The virtual participant answers: %1, %2 of %3").arg(what.toLower()).arg(done).arg(total));
-    counts_->setText(tr("Nothing is asked of you. Each answer is on disk before the next presentation."));
 }
 
 /// Hides the trend for a massager, which has no impedance.

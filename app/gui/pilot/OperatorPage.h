@@ -32,13 +32,12 @@ public:
     /// Sets the reason why the next presentation cannot start; empty if there is none.
     void setObstacle(const QString& why);
     void setBreakDue(bool due);
-    /// Shows the progress of a session with a virtual participant, which has no screens.
-    void setProgress(const QString& what, int done, int total);
+    /// Shows what is on disk.
+    void count(const PilotCounts& counts);
     /// Returns the heading: the present part of the session.
     [[nodiscard]] QString where() const { return where_->text(); }
     [[nodiscard]] OperatorAsk& question() { return *ask_; }
     [[nodiscard]] SessionNotes& notes() { return *notes_; }
-    [[nodiscard]] int answered() const { return answered_; }
 
 signals:
     void breakAfterTrialWanted(bool due);
@@ -50,6 +49,9 @@ private:
     [[nodiscard]] QWidget* buildBar();
     void showWhere();
     void showCounts();
+    /// Returns how long the screen still waits, in seconds; nothing if it waits for a person.
+    [[nodiscard]] std::optional<double> waits_s() const;
+    void showTold();
     void showTrend();
     void keepRoomForObstacle();
 
@@ -65,7 +67,7 @@ private:
     QPushButton* after_ = nullptr;
     QPushButton* now_ = nullptr;
     QPushButton* abort_ = nullptr;
-    QLabel* kept_ = nullptr;
+    QLabel* onDisk_ = nullptr;
     QWidget* sure_ = nullptr;
     QPushButton* reallyAbort_ = nullptr;
     PilotScreen screen_;
@@ -73,8 +75,9 @@ private:
     bool blind_ = true;
     bool breakDue_ = false;
     bool vibrates_ = false;  ///< true if a massager delivers
-    int answered_ = 0, repeated_ = 0;
-    int seenTrial_ = 0, seenBlock_ = 0;
+    bool virtual_ = false;   ///< true if nobody is asked anything
+    PilotCounts kept_;
+    Instant at_{0};                     ///< the time of the newest telemetry
     std::optional<PilotPrompt> theirs_;  ///< the question at the participant's screen
     quint64 theirsId_ = 0;
     QElapsedTimer phaseSince_;

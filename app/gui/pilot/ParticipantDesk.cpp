@@ -226,6 +226,11 @@ bool ParticipantDesk::letGoWasBounce() {
     return bounce;
 }
 
+bool ParticipantDesk::mayLetGo() const {
+    const std::scoped_lock lock(mutex_);
+    return open_ && open_->to != PromptTo::Operator && open_->kind != PromptKind::Hold && shownAt_;
+}
+
 bool ParticipantDesk::testsStopOf(PromptTo whose) const {
     const std::scoped_lock lock(mutex_);
     return open_ && open_->name == "stop-test" && open_->to == whose;

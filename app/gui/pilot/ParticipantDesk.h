@@ -38,6 +38,7 @@ public:
 
     void show(const PilotScreen& screen) override;
     [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override;
+    void counted(const PilotCounts& counts) override { emit countsChanged(counts); }
     void delivered(const FeltPresentation& /*felt*/) override {}
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override;
     void cancel() noexcept override;
@@ -66,6 +67,9 @@ public:
     /// `button`: the code of the held button; none for a key, the mouse or a finger. Returns false, and holds nothing,
     /// if the button has already come up, since the device reports a release before the window hears of the press.
     bool setHolding(bool holding, std::optional<int> button = std::nullopt);
+    /// True while a question other than to hold waits for the participant: nothing is delivered, and letting go is no
+    /// stop. Any thread.
+    [[nodiscard]] bool mayLetGo() const;
     /// Reports that button `button` came up. Returns true if it was the held button, and ends the hold. Any thread.
     [[nodiscard]] bool letGoOf(int button) noexcept;
     /// Reports that any hold button went down or came up, even if not the held one; call before letGoOf(). Any thread.
@@ -80,6 +84,7 @@ public:
 
 signals:
     void screenChanged(const tacto::PilotScreen& screen);
+    void countsChanged(const tacto::PilotCounts& counts);
     void asked(const tacto::PilotPrompt& prompt, quint64 id);
     void closed(quint64 id);  ///< answered, out of time, stopped or cancelled
     void obstacleChanged(const QString& why);
@@ -121,3 +126,4 @@ private:
 
 Q_DECLARE_METATYPE(tacto::PilotScreen)
 Q_DECLARE_METATYPE(tacto::PilotPrompt)
+Q_DECLARE_METATYPE(tacto::PilotCounts)

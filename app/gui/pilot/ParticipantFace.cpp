@@ -9,7 +9,6 @@
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "core/analysis/identification/IdentificationText.h"
 
 namespace tacto::gui {
 
@@ -25,28 +24,6 @@ QFont withPixels(int px, QFont::Weight weight = QFont::Normal) {
     auto font = textFont(TextSize::Body, weight);
     font.setPixelSize(std::max(8, px));
     return font;
-}
-
-QString phaseTitle(const std::string& phase) {
-    if (phase == "ascending" || phase == "detection" || phase == "range") return QObject::tr("Finding your range");
-    if (phase == "comparison") return QObject::tr("Comparing strengths");
-    if (phase == "familiarisation") return QObject::tr("Getting to know them");
-    if (phase == "training") return QObject::tr("Training");
-    if (phase == "drift") return QObject::tr("A short check");
-    if (phase == "ratings") return QObject::tr("A few questions");
-    return {};
-}
-
-/// Returns how to answer by touch and key and, if the pad has buttons (shown in a circle), by button.
-QString howToAnswer(const ParticipantView& view) {
-    const bool one = targetCount(*view.asked) == 1;
-    const bool buttons = !view.buttons.isEmpty();
-    auto said = one       ? buttons ? QObject::tr("Touch it, or press its key, or the button in the circle.")
-                                    : QObject::tr("Touch it, or press its key.")
-                      : buttons ? QObject::tr("Touch one, or press its key, or the button in its circle.")
-                          : QObject::tr("Touch one, or press its key.");
-    if (!one && view.asked->within) said += ' ' + QObject::tr("There is time.");
-    return said;
 }
 
 }  // namespace
@@ -80,7 +57,7 @@ ParticipantFace::ParticipantFace(std::function<void()> stop, QWidget* parent)
       below_(new QLabel(this)),
       field_(new ParticipantField(this)),
       stopTarget_(new ParticipantStop(std::move(stop), this)),
-      timeWord_(new QLabel(tr("time to answer"), this)),
+      timeWord_(new QLabel(word("how.time-bar"), this)),
       time_(new ShareBars(this)),
       hold_(new AnswerTarget(this)),
       line_(new QLineEdit(this)),
@@ -98,6 +75,31 @@ ParticipantFace::ParticipantFace(std::function<void()> stop, QWidget* parent)
     line_->hide();
     afterLookChange(*this, [this] { arrange(); });
     onEvent(*this, QEvent::Resize, [this] { arrange(); });
+}
+
+void ParticipantFace::setWords(const ParticipantWords& words) {
+    words_ = words;
+    timeWord_->setText(word("how.time-bar"));
+    stopTarget_->setWords(words);
+    arrange();
+}
+
+QString ParticipantFace::word(std::string_view key, ParticipantWords::Places places) const {
+    return qtext(words_.text(key, places));
+}
+
+QString ParticipantFace::phaseTitle(const std::string& phase) const {
+    const bool range = phase == "ascending" || phase == "detection";
+    return qtext(words_.text("phase", range ? "range" : phase, {}));
+}
+
+/// Returns how to answer by touch and key and, if the pad has buttons (shown in a circle), by button.
+QString ParticipantFace::howToAnswer(const ParticipantView& view) const {
+    const bool one = targetCount(*view.asked) == 1;
+    const bool buttons = !view.buttons.isEmpty();
+    auto said = word(one ? buttons ? "how.one-button" : "how.one" : buttons ? "how.any-button" : "how.any");
+    if (!one && view.asked->within) said += ' ' + word("how.time");
+    return said;
 }
 
 void ParticipantFace::setNote(const QString& note) {
@@ -156,18 +158,20 @@ void ParticipantFace::show(const ParticipantView& view) {
     leastWord_->setText(scale ? qtext(asked_->leastText) : QString());
     mostWord_->setText(scale ? qtext(asked_->mostText) : QString());
     line_->setVisible(asked_ && asked_->kind == PromptKind::Text);
-    block_->setText(screen.blocks > 0 && screen.block > 0 ? tr("Block %1 of %2").arg(screen.block).arg(screen.blocks)
-                                                          : phaseTitle(screen.phase));
+    block_->setText(screen.blocks > 0 && screen.block > 0
+                        ? word("phase.block",
+                               {{"block", fmt::format("{}", screen.block)}, {"of", fmt::format("{}", screen.blocks)}})
+                        : phaseTitle(screen.phase));
     blocks_->setShares(screen.blocks > 0 && screen.block > 0
                            ? blockShares(screen.block, screen.blocks, screen.trial, screen.trials)
                            : std::vector<double>());
     if (view.stopped) {
         field_->clear();
-        return put(tr("Stopped. The output is off."), tr("It goes on only when you say so."));
+        return put(word("stopped.title"), word("stopped.below"));
     }
     if (asked_) {
         if (asked_->kind == PromptKind::Hold) {
-            hold_->setContent(tr("hold this"), {"hand"}, view.holdKey, view.holdButton, AnswerTarget::Shape::Row);
+            hold_->setContent(word("hold.target"), {"hand"}, view.holdKey, view.holdButton, AnswerTarget::Shape::Row);
             hold_->show();
             field_->clear();
         } else if (isStopTestPrompt(*asked_)) {
@@ -179,17 +183,16 @@ void ParticipantFace::show(const ParticipantView& view) {
         } else {
             field_->showTargets(*asked_, view.keys, view.buttons);
         }
-        const auto below = asked_->kind == PromptKind::Hold   ? tr("Letting go stops the output.")
-                           : isStopTestPrompt(*asked_)        ? tr("Press STOP, or Esc.")
-                           : asked_->kind == PromptKind::Text ? tr("Return gives the answer.")
-                           : asked_->kind == PromptKind::Several
-                               ? tr("Touch each that fits, then press Return or “done”.")
-                               : howToAnswer(view);
+        const auto below = asked_->kind == PromptKind::Hold      ? word("hold.below")
+                           : isStopTestPrompt(*asked_)           ? word("stop-test.how")
+                           : asked_->kind == PromptKind::Text    ? word("how.text")
+                           : asked_->kind == PromptKind::Several ? word("how.several")
+                                                                 : howToAnswer(view);
         return put(qtext(asked_->text), below);
     }
     if (view.pause) {
         field_->clear();
-        return put(tr("Break"), tr("It goes on when both of you are ready."));
+        return put(word("break.title"), word("break.both"));
     }
     switch (screen.state) {
         case ScreenState::Rest:
@@ -198,22 +201,21 @@ void ParticipantFace::show(const ParticipantView& view) {
         case ScreenState::Dot:
         case ScreenState::Feel:
             field_->showDot();
-            return put(tr("Feel what comes"), qtext(screen.text));
+            return put(word("feel.title"), qtext(screen.text));
         case ScreenState::Interval:
             field_->showIntervals(screen.interval);
-            return put(tr("Feel what comes"),
-                       screen.text.empty() ? tr("It comes once: while 1 or while 2 is dark.") : qtext(screen.text));
+            return put(word("feel.title"), screen.text.empty() ? word("feel.interval") : qtext(screen.text));
         case ScreenState::Named: {
-            const auto verdict = !screen.right ? tr("This is") : *screen.right ? tr("Right. This was") : tr("This was");
-            field_->showWord(qtext(answerWords(screen.named)), iconsOf(screen.named));
+            const auto verdict = word(!screen.right ? "named.is" : *screen.right ? "named.right" : "named.was");
+            field_->showWord(qtext(conditionWords(screen.named, words_)), iconsOf(screen.named));
             return put(verdict, qtext(screen.text));
         }
         case ScreenState::Break:
             field_->clear();
-            return put(tr("Break"), screen.text.empty() ? tr("Take your time.") : qtext(screen.text));
+            return put(word("break.title"), screen.text.empty() ? word("break.time") : qtext(screen.text));
         case ScreenState::Ended:
             field_->clear();
-            return put(tr("That was all. Thank you."), qtext(screen.text));
+            return put(word("ended.title"), qtext(screen.text));
     }
 }
 

@@ -45,6 +45,7 @@ public:
     void show(const ParticipantView& view);
     /// Shows words alone, without a question.
     void say(const QString& title, const QString& below);
+    void setWords(const ParticipantWords& words);
     void setNote(const QString& note);
     void setStopButtons(const QStringList& buttons);
     void setStopsLeft(int left);
@@ -71,6 +72,11 @@ private:
     [[nodiscard]] int placeQuestion(const Picture& at, int fieldBottom, int wanted);
     void placeEnds(const Picture& at, int top);
 
+    [[nodiscard]] QString word(std::string_view key, ParticipantWords::Places places = {}) const;
+    [[nodiscard]] QString phaseTitle(const std::string& phase) const;
+    [[nodiscard]] QString howToAnswer(const ParticipantView& view) const;
+
+    ParticipantWords words_ = ParticipantWords::english();
     std::optional<PilotPrompt> asked_;
     QLabel* block_;
     ShareBars* blocks_;

@@ -5,6 +5,7 @@
 #include <QTouchEvent>
 #include <utility>
 
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/pilot/PilotRecord.h"
 
@@ -28,7 +29,7 @@ QFont fitted(const QString& words, QFont font, int px, int room) {
 ParticipantStop::ParticipantStop(std::function<void()> stop, QWidget* parent)
     : QAbstractButton(parent), stop_(std::move(stop)) {
     setObjectName("participantStop");
-    setText(tr("STOP"));
+    setText(word("stop.word"));
     sayIt();
     setFocusPolicy(Qt::NoFocus);
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Expanding);  // in a row the button is as high as the row
@@ -41,10 +42,28 @@ void ParticipantStop::setType(int word_px, int lines_px) {
     update();
 }
 
+void ParticipantStop::setWords(const ParticipantWords& words) {
+    words_ = words;
+    setText(word("stop.word"));
+    sayIt();
+}
+
+QString ParticipantStop::word(std::string_view key) const { return qtext(words_.text(key)); }
+
+QString ParticipantStop::buttonWords() const {
+    if (buttons_.isEmpty()) return {};
+    if (buttons_.first().isEmpty()) return " · " + word("stop.pedal");
+    const auto all = buttons_.join(QString(" %1 ").arg(word("stop.or"))).toStdString();
+    return " · " + qtext(words_.text("stop.button", {{"button", all}}));
+}
+
+QString ParticipantStop::leftWords() const {
+    return qtext(words_.text("stop.left",
+                             {{"left", fmt::format("{}", left_)}, {"of", fmt::format("{}", kMaxParticipantStops)}}));
+}
+
 void ParticipantStop::setButtons(const QStringList& buttons) {
-    buttons_ = buttons.isEmpty()           ? QString()
-               : buttons.first().isEmpty() ? tr(" · pedal")
-                                           : tr(" · button %1").arg(buttons.join(tr(" or ")));
+    buttons_ = buttons;
     sayIt();
 }
 
@@ -61,7 +80,7 @@ void ParticipantStop::setOperators() {
 
 void ParticipantStop::sayIt() {
     const auto whose = operators_ ? tr("STOP, the operator’s: interrupts the session")
-                                  : tr("STOP%1, %2 of %3 left").arg(buttons_).arg(left_).arg(kMaxParticipantStops);
+                                  : QString("%1%2, %3").arg(text(), buttonWords(), leftWords());
     setAccessibleName(whose);
     drawnFor_ = {};
     update();
@@ -106,13 +125,11 @@ QPixmap ParticipantStop::draw(const QColor& ground) const {
     painter.drawRoundedRect(rect(), kStopRadius, kStopRadius);
     painter.setPen(stateStyle(InterlockState::Faulted).ink);
     const int room = width() * 9 / 10;
-    const auto leftText = tr("%1 of %2 left").arg(left_).arg(kMaxParticipantStops);
-    auto keys = operators_ ? tr("interrupts the session") : tr("Space · Esc · Pause") + buttons_;
-    const auto foot = operators_ ? QString()
-                                 : tr("It stops immediately. You do not have to say why.\n"
-                                      "You say when it goes on. STOPs: %1.")
-                                       .arg(leftText);
-    const auto longest = tr("It stops immediately. You do not have to say why.");
+    const auto leftText = leftWords();
+    auto keys = operators_ ? tr("interrupts the session") : word("stop.keys") + buttonWords();
+    const auto longest = word("stop.at-once");
+    const auto foot =
+        operators_ ? QString() : longest + '\n' + qtext(words_.text("stop.yours", {{"left", leftText.toStdString()}}));
     const auto word = fitted(text(), textFont(TextSize::Display, QFont::Bold), word_px_, room);
     auto lines = fitted(longest, textFont(TextSize::Body), lines_px_, room);
     const int footHigh = QFontMetrics(lines).lineSpacing() * 2 + QFontMetrics(lines).descent();

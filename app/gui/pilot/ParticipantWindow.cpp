@@ -12,6 +12,7 @@
 
 #include "app/gui/pilot/ParticipantFace.h"
 #include "app/gui/pilot/ParticipantField.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
@@ -83,6 +84,12 @@ ParticipantWindow::ParticipantWindow(ParticipantDesk& desk, std::function<void(c
         face_->setGeometry(rect());
         judge();
     });
+}
+
+void ParticipantWindow::setWords(const ParticipantWords& words) {
+    words_ = words;
+    face_->setWords(words);
+    showState();
 }
 
 void ParticipantWindow::setNote(const QString& note) { face_->setNote(note); }
@@ -157,12 +164,12 @@ void ParticipantWindow::showScreen(const PilotScreen& screen) {
 void ParticipantWindow::ask(const PilotPrompt& prompt, quint64 id) {
     if (prompt.to == PromptTo::Operator) {
         asking_ = false;
-        face_->say(tr("One moment, please."), tr("The operator has something to do."));
+        face_->say(qtext(words_.text("moment.title")), qtext(words_.text("moment.below")));
         emit changed();
         return;
     }
     prompt_ = prompt;
-    if (prompt.kind == PromptKind::Several) prompt_.targets.push_back({kDone, tr("Done").toStdString()});
+    if (prompt.kind == PromptKind::Several) prompt_.targets.push_back({kDone, words_.text("answer.done")});
     keys_ = AnswerKeys(set_, prompt_);
     id_ = id;
     asking_ = true;
@@ -256,7 +263,9 @@ void ParticipantWindow::pressHold() {
 void ParticipantWindow::letGo() {
     heldKey_ = 0;
     if (!desk_.holding()) return;
+    const bool stops = !desk_.mayLetGo();
     desk_.setHolding(false);
+    if (!stops) return;
     stop_(kParticipantLetGo);
     face_->hold().hide();
     noteStop();

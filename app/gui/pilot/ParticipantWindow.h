@@ -28,6 +28,7 @@ public:
     /// Calls `stop` before all else when the target is pressed or a held key is released. `desk` must outlive this.
     ParticipantWindow(ParticipantDesk& desk, std::function<void(const char* by)> stop, QWidget* parent = nullptr);
 
+    void setWords(const ParticipantWords& words);
     void setKeys(KeySet set) { set_ = set; }
     /// Handles a press or release of one of the participant's buttons; each button has its own `code`. Buttons answer a
     /// question only if they reach every target: see setButtonAnswers().
@@ -97,6 +98,7 @@ private:
     const std::function<void(const char*)> stop_;
     KeySet set_ = KeySet::Figures;
     PilotScreen screen_;
+    ParticipantWords words_ = ParticipantWords::english();
     PilotPrompt prompt_;  ///< the last prompt
     AnswerKeys keys_;
     quint64 id_ = 0;

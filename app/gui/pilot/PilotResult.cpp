@@ -206,11 +206,18 @@ void PilotResult::show(const RunResult& result, const QString& folder, bool ofSt
     blocks_->setVisible(!blocks.isEmpty());
     note_->setText(basisWords(result) + (ofStudy ? tr("Study folder: %1.") : tr("Rehearsal folder: %1.")).arg(folder) +
                    (result.markers ? ' ' + qtext(markersSentence(*result.markers)) : QString()));
-    goOn_->setVisible(outcome.error.has_value() && !ofStudy);
+    goOn_->hide();
     another_->setVisible(!ofStudy);
-    makePrimary(*another_, !outcome.error);
+    makePrimary(*another_);
+    ofStudy_ = ofStudy;
     back_->setText(ofStudy ? tr("Back to the study") : tr("Back"));
     makePrimary(*back_, ofStudy);
+}
+
+void PilotResult::setMayGoOn(bool may) {
+    goOn_->setVisible(may);
+    makePrimary(*another_, !may);
+    makePrimary(*back_, ofStudy_ && !may);
 }
 
 void PilotResult::showMatrix(const nlohmann::json& results) {

@@ -24,9 +24,10 @@ class PilotResult final : public QWidget {
     Q_OBJECT
 public:
     explicit PilotResult(QWidget* parent = nullptr);
-    /// `folder`: the study's folder. `ofStudy`: the page leads back to the study, which offers to continue an
-    /// interrupted session.
+    /// `folder`: the study's folder. `ofStudy`: the page leads back to the study.
     void show(const RunResult& result, const QString& folder, bool ofStudy = false);
+    /// Offers to go on with the session, or not: until the next show() it is not offered.
+    void setMayGoOn(bool may);
     /// Shows a sentence below the result.
     void say(const QString& what);
 
@@ -39,6 +40,7 @@ signals:
 private:
     void showMatrix(const nlohmann::json& results);
     QString folder_;
+    bool ofStudy_ = false;
     QLabel* head_;
     QLabel* why_;
     QLabel* more_;

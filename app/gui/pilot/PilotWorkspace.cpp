@@ -6,6 +6,7 @@
 #include "app/gui/pilot/SessionPath.h"
 #include "app/gui/pilot/SessionSide.h"
 #include "app/gui/pilot/SessionStartPage.h"
+#include "app/gui/pilot/UnfinishedOffer.h"
 #include "app/gui/study/StudyList.h"
 #include "app/gui/study/StudyPage.h"
 #include "app/gui/theme/Building.h"
@@ -85,7 +86,21 @@ QWidget* PilotWorkspace::buildHome() {
     home_->addTab(studies_, tr("Study"));
     connect(rehearsal_, &RehearsalPage::beginWanted, this, [this] { beginRehearsal(false); });
     connect(studies_, &StudyPage::sessionWanted, this, &PilotWorkspace::prepareStart);
-    connect(&study_, &OpenStudy::resultRead, this, &PilotWorkspace::showRecorded);
+    connect(&study_, &OpenStudy::resultRead, this, [this](const RunResult& result) { showRecorded(result, true); });
+    connect(&study_, &OpenStudy::changed, this, &PilotWorkspace::offerToGoOn);
+    connect(rehearsal_, &RehearsalPage::resultWanted, this, [this](const QString& session) {
+        wanted_ = session;
+        rehearsed_.open(rehearsal_->folder(), nullptr);
+    });
+    connect(&rehearsed_, &OpenStudy::opened, this, [this] { rehearsed_.readResult(wanted_); });
+    connect(&rehearsed_, &OpenStudy::resultRead, this, [this](const RunResult& result) {
+        showRecorded(result, false);
+        rehearsed_.close();
+    });
+    connect(&rehearsed_, &OpenStudy::refused, this, [this](const QString& why) {
+        rehearsal_->say(why);
+        rehearsed_.close();
+    });
     return home_;
 }
 
@@ -95,7 +110,7 @@ void PilotWorkspace::connectSession() {
         const auto& start = session->start();
         path_->setTitle(tr("Session: %1").arg(start.who), kindOf(start, ofStudy_));
         const bool tests = resultTraits(start.protocol).kind != ResultKind::PilotThresholds;
-        path_->begin(tests ? start.blocks.value_or(kUsualBlocks) : 0, start.person, start.massager);
+        path_->begin(tests ? start.blocks.value_or(start.studyBlocks) : 0, start.person, start.massager);
         showPage(kSession);
     });
     connect(session, &SessionConduct::screenChanged, this, [this, session](const PilotScreen& screen) {
@@ -107,10 +122,7 @@ void PilotWorkspace::connectSession() {
         side_->show(*session);
     });
     connect(session, &SessionConduct::changed, this, [this, session] { side_->show(*session); });
-    connect(session, &SessionConduct::progressed, this, [this](const QString& what, int done, int total) {
-        page_->setProgress(what, done, total);
-        path_->reachTest();
-    });
+    connect(session, &SessionConduct::counted, path_, &SessionPath::count);
     connect(session, &SessionConduct::refused, this, &PilotWorkspace::sayWhereItBegan);
     connect(session, &SessionConduct::ended, this, [this, session](const std::shared_ptr<const FinishedRun>& run) {
         const auto& outcome = run->result.outcome;
@@ -120,7 +132,9 @@ void PilotWorkspace::connectSession() {
                    : memberAt(outcome.results, "range.usable") == false            ? SessionEnd::NoRange
                                                                                    : SessionEnd::Complete);
         result_->show(run->result, session->start().folder, ofStudy_);
-        if (ofStudy_) study_.takeBack();
+        if (ofStudy_) return study_.takeBack();  // offerToGoOn() follows
+        rehearsal_->look();
+        offerToGoOn();
     });
     connect(session, &SessionConduct::attentionWanted, this, &PilotWorkspace::attentionWanted);
     connect(session, &SessionConduct::runningChanged, this, &PilotWorkspace::runningChanged);
@@ -135,7 +149,7 @@ void PilotWorkspace::connectResult() {
         if (!ofStudy_) rehearsal_->look();
         showPage(kHome);
     });
-    connect(result_, &PilotResult::goOnWanted, this, [this] { beginRehearsal(true); });
+    connect(result_, &PilotResult::goOnWanted, this, &PilotWorkspace::goOn);
     connect(result_, &PilotResult::folderWanted, this, [this](const QString& folder) {
         if (const auto why = openOnDesktop(folder); !why.isEmpty()) result_->say(why);
     });
@@ -190,10 +204,29 @@ void PilotWorkspace::keepExclusions() {
                                : sentence(noted.error()));
 }
 
-void PilotWorkspace::showRecorded(const RunResult& result) {
+void PilotWorkspace::offerToGoOn() {
+    if (reopened_ || running() || pages_->currentIndex() != kOutcome) return;
+    if (!ofStudy_) return result_->setMayGoOn(rehearsal_->mayGoOn());
+    const auto* study = study_.study();
+    if (study == nullptr) return;
+    const auto who = study->find(session_->start().participant);
+    if (!who) return;
+    const auto found = unfinishedOf(*study, *who);
+    result_->setMayGoOn(found && *found && (*found)->mayGoOn);
+}
+
+/// In a study the checklist is answered again first.
+void PilotWorkspace::goOn() {
+    if (!ofStudy_) return beginRehearsal(true);
+    prepareStart(qtext(session_->start().participant));
+    start_->chooseGoOn();
+}
+
+void PilotWorkspace::showRecorded(const RunResult& result, bool ofStudy) {
     if (running()) return;  // the page of the running session stays
-    ofStudy_ = reopened_ = true;
-    result_->show(result, study_.folder(), ofStudy_);
+    ofStudy_ = ofStudy;
+    reopened_ = true;
+    result_->show(result, ofStudy ? study_.folder() : rehearsed_.folder(), ofStudy_);
     showPage(kOutcome);
 }
 

@@ -58,12 +58,17 @@ private:
     void prepareStart(const QString& code);
     /// Notes a "yes" of the checklist that the operator has left, so that it stays for the day.
     void keepExclusions();
-    void showRecorded(const RunResult& result);
+    void showRecorded(const RunResult& result, bool ofStudy);
+    /// Offers to go on with the session that has just ended, if it was interrupted and can go on.
+    void offerToGoOn();
+    void goOn();
     void beginRehearsal(bool goOn);
     void beginOfStudy();
     void sayWhereItBegan(const QString& why);
 
     OpenStudy study_;
+    OpenStudy rehearsed_;  ///< a rehearsal whose result is read
+    QString wanted_;       ///< the session of that result
     bool plotOnly_ = false;
     bool ofStudy_ = false;   ///< true if the running session, or the session of the result shown, belongs to a study
     bool reopened_ = false;  ///< true if the result shown was read from its record

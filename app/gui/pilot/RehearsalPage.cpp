@@ -24,23 +24,31 @@ QString newFolder() {
     return documents.filePath("Tactoscope/rehearsal-" + QDateTime::currentDateTime().toString("yyyyMMdd-HHmmss"));
 }
 
-/// Returns the modality of the rehearsal in `folder`; nothing if there is none yet.
-std::optional<Modality> modalityIn(const QString& folder) {
-    if (folder.isEmpty() || !Study::isThere(folder.toStdString())) return std::nullopt;
+/// What the rehearsal in a folder says about the next session; all empty if there is none yet.
+struct SeenRehearsal {
+    std::optional<Modality> modality = {};
+    std::optional<Unfinished> unfinished = {};
+    std::optional<bool> person = {};  ///< whether a person answered in the participant's last session
+    QString ended = {};               ///< the id of the last session that has ended
+};
+
+SeenRehearsal seenIn(const QString& folder, const std::string& participant) {
+    SeenRehearsal seen;
+    if (folder.isEmpty() || !Study::isThere(folder.toStdString())) return seen;
     const auto study = Study::open(folder.toStdString(), nullptr, Study::Access::Read);
-    return study && study->isRehearsal() ? std::optional(study->settings().modality) : std::nullopt;
+    if (!study || !study->isRehearsal()) return seen;
+    seen.modality = study->settings().modality;
+    const auto who = study->find(participant);
+    for (const auto& session : study->sessions()) {
+        if (who && session.participant == who->id) seen.person = session.basis != SessionBasis::Virtual;
+        if (session.state != StudySessionState::Unfinished && session.opened) seen.ended = qtext(session.id);
+    }
+    if (!who) return seen;
+    if (const auto found = unfinishedOf(*study, *who)) seen.unfinished = *found;
+    return seen;
 }
 
-/// Returns the interrupted session of a virtual participant in the rehearsal in `folder`.
-std::optional<Unfinished> unfinishedIn(const QString& folder, const std::string& participant) {
-    if (folder.isEmpty() || !Study::isThere(folder.toStdString())) return std::nullopt;
-    const auto study = Study::open(folder.toStdString(), nullptr, Study::Access::Read);
-    if (!study || !study->isRehearsal()) return std::nullopt;
-    const auto who = study->find(participant);
-    if (!who) return std::nullopt;
-    const auto found = unfinishedOf(*study, *who);
-    return found ? *found : std::nullopt;
-}
+constexpr double kTenfold = 10;
 
 }  // namespace
 
@@ -79,7 +87,13 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     begin_->setIcon(icon("run", Ink::Primary));
     makePrimary(*begin_);
     connect(begin_, &QPushButton::clicked, this, &RehearsalPage::beginWanted);
-    foot->addWidget(begin_, 0, Qt::AlignLeft);
+    result_ = pageButton(tr("Show the last result"), "lastResult",
+                         tr("What the last session of this rehearsal that has ended came to."), this);
+    connect(result_, &QPushButton::clicked, this, [this] { emit resultWanted(ended_); });
+    auto* both = new QHBoxLayout;
+    for (auto* button : {begin_, result_}) both->addWidget(button);
+    both->addStretch();
+    foot->addLayout(both);
     connect(&folder_->line(), &QLineEdit::textChanged, this, &RehearsalPage::look);
     connect(offer_, &UnfinishedOffer::changed, this, &RehearsalPage::judge);
     connect(&seats_->inputs(), &InputRows::changed, this, &RehearsalPage::judge);
@@ -92,13 +106,17 @@ std::vector<FormField> RehearsalPage::fields() const {
     std::vector<FormField> all{
         ownField(tr("Folder"), folder_),
         ownField({}, offer_),
-        choiceField("whoAnswers", tr("Participant"),
-                    {{"virtual", tr("a virtual participant")}, {"person", tr("you, in their window")}},
-                    tr("A virtual participant answers by itself. Either way nothing but simulated devices is used.")),
+        choiceField(
+            "whoAnswers", tr("Participant"),
+            {{"virtual", tr("a virtual participant")}, {"person", tr("you, in their window")}},
+            tr("A virtual participant answers by itself. Either way nothing but simulated devices is used. Who began "
+               "a rehearsal goes on with it.")),
         choiceField("rehearsalPace", tr("Pace"),
-                    {{"fast", tr("as fast as possible")}, {"own", tr("the session’s own")}},
-                    tr("As fast as possible: seconds. The session’s own: as long as with a person, to watch what is "
-                       "delivered.")),
+                    {{"fast", tr("as fast as possible")},
+                     {"tenfold", tr("ten times as fast as a person, to watch")},
+                     {"own", tr("the session’s own")}},
+                    tr("As fast as possible: seconds. Ten times as fast: some minutes; no screen stays for more than a "
+                       "second. The session’s own: as long as with a person, to watch what is delivered.")),
         wholeField("rehearsalSeed", tr("Seed"), 1, kMaxSeed, 1,
                    tr("The same seed gives the same order, and the same virtual participant.")),
         choiceField("rehearsalModality", tr("Felt through"),
@@ -115,7 +133,7 @@ std::vector<FormField> RehearsalPage::fields() const {
 
 bool RehearsalPage::person() const { return form_->text("whoAnswers") == "person"; }
 
-bool RehearsalPage::ownPace() const { return form_->text("rehearsalPace") == "own"; }
+bool RehearsalPage::mayGoOn() const { return offer_->asks() && offer_->offered()->mayGoOn; }
 
 PilotStart RehearsalPage::rehearsal() const {
     PilotStart made;
@@ -124,7 +142,9 @@ PilotStart RehearsalPage::rehearsal() const {
     made.seed = form_->text("rehearsalSeed").toULongLong();
     made.participant = fmt::format("virtual:{}", made.seed);
     made.person = person();
-    made.realTime = !made.person && ownPace();
+    const auto pace = form_->text("rehearsalPace");
+    made.realTime = !made.person && pace == "own";
+    made.pace = !made.person && pace == "tenfold" ? kTenfold : 0;
     made.who = made.person ? tr("you") : tr("virtual, seed %1").arg(made.seed);
     made.unfinished = offer_->chosen();
     const auto modality = form_->text("rehearsalModality").toStdString();
@@ -138,11 +158,18 @@ PilotStart RehearsalPage::rehearsal() const {
 
 void RehearsalPage::look() {
     seen_ = form_->text("rehearsalSeed");
-    modality_ = modalityIn(folder_->folder());
+    const auto seen = seenIn(folder_->folder(), "virtual:" + seen_.toStdString());
+    modality_ = seen.modality;
+    person_ = seen.person;
+    ended_ = seen.ended;
     if (modality_) form_->set("rehearsalModality", qtext(nameOf(*modality_)));
     form_->setFieldEnabled("rehearsalModality", !modality_);
+    if (person_) form_->set("whoAnswers", *person_ ? "person" : "virtual");
+    form_->setFieldEnabled("whoAnswers", !person_);
     title_->setText(modality_ ? tr("Another session of this rehearsal") : tr("A new rehearsal"));
-    offer_->offer(unfinishedIn(folder_->folder(), "virtual:" + seen_.toStdString()));
+    result_->setVisible(!ended_.isEmpty());
+    seats_->offerWords(folder_->folder(), {});
+    offer_->offer(seen.unfinished);
     judge();
 }
 
@@ -151,7 +178,8 @@ void RehearsalPage::renew() { folder_->line().setText(newFolder()); }
 void RehearsalPage::judge() {
     followOffer(*form_, *offer_);
     form_->setRowVisible("rehearsalPace", !person());
-    seats_->showFor(person(), ownPace());
+    const auto pace = form_->text("rehearsalPace");
+    seats_->showFor(person(), pace == "own" ? tr("about an hour") : pace == "tenfold" ? tr("some minutes") : QString());
     form_->setFieldEnabled("rehearsalBlocks", !offer_->goesOn() && isWholeSession(*form_));
     const auto lacks = seats_->missing(person());
     begin_->setEnabled(offer_->isSettled() && lacks.isEmpty() && !folder_->folder().isEmpty());

@@ -29,16 +29,19 @@ public:
     void say(const QString& what);
     /// Checks again whether a session can be resumed.
     void look();
+    /// True if the folder's interrupted session can go on.
+    [[nodiscard]] bool mayGoOn() const;
+    [[nodiscard]] QString folder() const { return folder_->folder(); }
     /// Starts over in a new folder.
     void renew();
 
 signals:
     void beginWanted();
+    void resultWanted(const QString& session);  ///< of the folder's last session that has ended
 
 private:
     [[nodiscard]] std::vector<FormField> fields() const;
-    [[nodiscard]] bool person() const;   ///< a person answers
-    [[nodiscard]] bool ownPace() const;  ///< the session runs as fast as a person's
+    [[nodiscard]] bool person() const;  ///< a person answers
     void judge();
 
     QLabel* title_;
@@ -46,10 +49,13 @@ private:
     FolderRow* folder_;
     UnfinishedOffer* offer_;
     std::optional<Modality> modality_;  ///< the modality of a rehearsal that already exists
+    std::optional<bool> person_;        ///< whether a person answered in the participant's last session
+    QString ended_;                     ///< the id of the last session that has ended
     QString seen_;                      ///< the seed of the last check
     std::unique_ptr<SeatRows> seats_;
     TroubleLine* trouble_;
     QPushButton* begin_ = nullptr;
+    QPushButton* result_ = nullptr;
 };
 
 }  // namespace tacto::gui

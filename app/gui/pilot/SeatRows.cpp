@@ -7,6 +7,7 @@
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/run/StudyWords.h"
 
 namespace tacto::gui {
 
@@ -41,7 +42,8 @@ std::vector<FormField> procedureFields() {
 
 void followOffer(FieldForm& form, const UnfinishedOffer& offer) {
     if (offer.goesOn()) form.set("protocol", qtext(offer.offered()->protocol));
-    for (const char* field : {"protocol", "method"}) form.setFieldEnabled(field, !offer.goesOn());
+    if (offer.goesOn() && !offer.offered()->language.isEmpty()) form.set("language", offer.offered()->language);
+    for (const char* field : {"protocol", "method", "language"}) form.setFieldEnabled(field, !offer.goesOn());
 }
 
 bool isWholeSession(const FieldForm& form) { return form.text("protocol") == kWholeSession; }
@@ -55,7 +57,10 @@ SeatRows::SeatRows(FieldForm& form)
 
 std::vector<FormField> SeatRows::fields() const {
     const auto key = [](KeySet set) { return QString::number(int(set)); };
-    return {ownField(QObject::tr("Their screen"), screen_),
+    return {choiceField("language", QObject::tr("Their language"), {{"en", "English"}},
+                        QObject::tr("All that the participant reads. Another language is a file words/CODE.json in the "
+                                    "study’s folder.")),
+            ownField(QObject::tr("Their screen"), screen_),
             choiceField("answerKeys", QObject::tr("Their keys"),
                         {{key(KeySet::Figures), QObject::tr("figures 1 to 6")},
                          {key(KeySet::LeftHand), QObject::tr("left hand: W E, S D, X C")},
@@ -77,7 +82,22 @@ void SeatRows::connectFields() {
     form_.set("blind", "true");
 }
 
+void SeatRows::offerWords(const QString& folder, const std::vector<WordsHash>& approved) {
+    const auto all = languagesOf(folder.toStdString());
+    wordsTrouble_ = all ? QString() : sentence(all.error());
+    std::vector<std::pair<QString, QString>> choices;
+    for (const auto& each : all ? *all : ParticipantWords::builtIn()) {
+        if (approved.empty() || std::ranges::count(approved, each.sha256(), &WordsHash::sha256) > 0)
+            choices.emplace_back(qtext(each.code()), qtext(each.language()));
+    }
+    if (choices.empty())
+        wordsTrouble_ = QObject::tr("None of the words that the approval states is there; an amendment states others.");
+    else
+        form_.setChoices("language", choices);
+}
+
 void SeatRows::writeTo(PilotStart& start) const {
+    start.language = form_.text("language");
     start.protocol = form_.text("protocol").toStdString();
     start.method = form_.text("method").toStdString();
     start.keys = KeySet(form_.text("answerKeys").toInt());
@@ -91,6 +111,7 @@ void SeatRows::writeTo(PilotStart& start) const {
 QString SeatRows::missing(bool person) const {
     if (form_.refused(false) > 0) return QObject::tr("Correct the field that is refused first.");
     if (const auto to = markersFrom(form_); to && !*to) return sentence(to->error());
+    if (!wordsTrouble_.isEmpty()) return wordsTrouble_;
     return person ? inputs_->missing() : QString();
 }
 
@@ -107,17 +128,17 @@ void SeatRows::setBlind(bool study) {
               : QObject::tr("The operator sees no condition, level or answer until the session has ended."));
 }
 
-void SeatRows::showFor(bool person, bool realTime) {
+void SeatRows::showFor(bool person, const QString& lasts) {
+    form_.setRowVisible("language", person);
     form_.setRowVisible(*screen_, person);
     form_.setRowVisible("answerKeys", person);
     form_.setRowVisible(*inputs_, person);
     about_->setText(
-        !person && realTime
-            ? QObject::tr("The virtual participant answers every question of both people, and the session takes about "
-                          "an hour. Where it is not blind, Live and Oscilloscope show what is delivered.")
-        : !person
-            ? QObject::tr(
-                  "The virtual participant answers every question of both people, and the session is done in seconds.")
+        !person
+            ? QObject::tr("The virtual participant answers every question of both people, and the session takes %1. "
+                          "This page shows what happens; where it is not blind, Live and Oscilloscope show what is "
+                          "delivered.")
+                  .arg(lasts.isEmpty() ? QObject::tr("seconds") : lasts)
         : ScreenChoice::isOnly()
             ? QObject::tr("There is one screen: the participant’s window covers it. F2 opens your strip on "
                           "it, and Esc stops from anywhere.")

@@ -53,19 +53,23 @@ public:
     void connectFields();
     [[nodiscard]] ScreenChoice& screens() const { return *screen_; }
     [[nodiscard]] InputRows& inputs() const { return *inputs_; }
+    /// Offers the languages of a study (its folder, the words that its approval states), of which one is read.
+    void offerWords(const QString& folder, const std::vector<WordsHash>& approved);
     void writeTo(PilotStart& start) const;
     /// Returns a sentence that says why a session cannot begin with these settings; empty if it can.
     [[nodiscard]] QString missing(bool person) const;
     /// Restores what is remembered for `place` (InputRows.h), and the markers' port; forgets earlier choices.
     void recall(const QString& place);
     /// Shows screen, keys and buttons for a person only. `realTime`: a virtual participant takes a person's time.
-    void showFor(bool person, bool realTime = false);
+    /// `lasts`: how long a virtual participant's session takes; empty: seconds.
+    void showFor(bool person, const QString& lasts = {});
     /// Sets whether the study is blind. Its sessions are then always blind: that is part of its approval.
     void setBlind(bool study);
     /// Returns the explanation of these fields, to be placed below the form.
     [[nodiscard]] QLabel* about() const { return about_; }
 
 private:
+    QString wordsTrouble_;  // why the words cannot be read
     FieldForm& form_;
     ScreenChoice* screen_;
     InputRows* inputs_;

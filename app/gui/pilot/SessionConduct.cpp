@@ -11,6 +11,7 @@
 #include "app/gui/pilot/ParticipantWindow.h"
 #include "app/gui/pilot/SeatRows.h"
 #include "app/gui/theme/Text.h"
+#include "app/run/StudyWords.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {
@@ -28,6 +29,7 @@ Result<RunOrder> pilotOrder(const PilotStart& start, BenchController& controller
     if (!declaration) return failure(declaration);
     std::map<std::string, std::string> given{
         {"participant", start.participant}, {"method", start.method}, {"modality", start.modality}};
+    if (!start.language.isEmpty()) given["language"] = start.language.toStdString();
     if (!start.unfinished.empty()) given["unfinished"] = start.unfinished;
     if (start.blocks) given["blocks"] = std::to_string(*start.blocks);
     auto settings = applySettings(*declaration, given);
@@ -59,6 +61,10 @@ SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, 
     });
     connect(&desk_, &ParticipantDesk::obstacleChanged, this,
             [this](const QString& why) { page_.setObstacle(running_ && start_.person ? why : QString()); });
+    connect(&desk_, &ParticipantDesk::countsChanged, this, [this](const PilotCounts& counts) {
+        page_.count(counts);
+        emit counted(counts);
+    });
     connect(&controller_, &BenchController::finished, this, &SessionConduct::finish);
     connect(this, &SessionConduct::changed, this, [this] {
         if (window_) window_->setStopsLeft(std::max(0, int(kMaxParticipantStops) - participantStops_));
@@ -122,7 +128,7 @@ InputsAtOnce SessionConduct::atOnce() {
             controller_.stop("operator (button)");
     };
     all.letGo = [this, participant](int code) {
-        if (desk_.letGoOf(code)) participant(kParticipantLetGo);
+        if (desk_.letGoOf(code) && !desk_.mayLetGo()) participant(kParticipantLetGo);
     };
     all.heldMoved = [this](int code, bool down, SteadyTime at) { desk_.noteHoldButton(code, down, at); };
     all.lost = [this](const std::string& which) {
@@ -153,6 +159,9 @@ QString SessionConduct::begin(const PilotStart& start, ScreenChoice& screens) {
     auto made = pilotOrder(start_, controller_);
     if (!made) return sentence(made.error());
     order_ = std::move(*made);
+    auto words = languageOf(start.folder.toStdString(), start.language.isEmpty() ? "en" : start.language.toStdString());
+    if (!words) return sentence(words.error());
+    words_ = std::move(*words);
     if (start.person) {
         if (const auto trouble = inputs_.begin(start.buttons, start.inputs, atOnce()); !trouble.isEmpty())
             return trouble;
@@ -185,6 +194,7 @@ QString SessionConduct::screenName() const { return screens_ == nullptr ? QStrin
 void SessionConduct::openWindow() {
     desk_.setScreenThere(true);
     window_ = std::make_unique<ParticipantWindow>(desk_, [this](const char* by) { stopAsParticipant(by); });
+    window_->setWords(words_);
     window_->setKeys(start_.keys);
     window_->setButtonAnswers(inputs_.participantAnswers());
     window_->setButtonLabels(inputs_.labels());
@@ -209,7 +219,8 @@ void SessionConduct::confirmCode() {
     screen.operatorText = "The participant is asked whether the code is theirs.";
     screen.operatorMayKnow = true;
     desk_.show(screen);
-    const auto prompt = yesNoPrompt("code", fmt::format("Is {} your code?", start_.participant));
+    const auto prompt = yesNoPrompt("code", words_.text("code.question", {{"code", start_.participant}}),
+                                    PromptTo::Participant, words_);
     asker_.start(
         this, [this, prompt] { return desk_.ask(prompt); },
         [this](const auto& said) { codeAnswered(said.has_value(), said && said->key() == "yes"); });
@@ -232,6 +243,10 @@ void SessionConduct::run() {
     seats.passphrase = start_.passphrase;
     seats.exclusions = start_.exclusions;
     seats.markers = start_.markers;
+    if (!start_.person) {
+        seats.watch = &desk_;
+        seats.pace = start_.pace;
+    }
     if (start_.person) {
         seats.people = &desk_;
         seats.codeConfirmed = codeConfirmed_;
@@ -311,9 +326,7 @@ void SessionConduct::ask(const PilotPrompt& prompt, quint64 id) {
 
 void SessionConduct::refresh(const Telemetry& telemetry) {
     if (!running_) return;
-    const auto feed = controller_.takeRunFeed();  // trials are discarded, as they name conditions
-    if (feed.progress && !start_.person)
-        emit progressed(qtext(feed.progress->label), int(feed.progress->done), int(feed.progress->total));
+    static_cast<void>(controller_.takeRunFeed());  // trials are discarded, as they name conditions
     page_.refresh(telemetry);
     const bool faulted = telemetry.state == InterlockState::Faulted;
     if (faulted && !std::exchange(seenFault_, true)) {

@@ -97,10 +97,10 @@ signals:
     void begun();
     void screenChanged(const tacto::PilotScreen& screen);
     void asked(const tacto::PilotPrompt& prompt);
-    void changed();                                             ///< stops, faults or participant's screen changed
-    void attentionWanted();                                     ///< the operator is asked something
-    void progressed(const QString& what, int done, int total);  ///< progress of a virtual participant
-    void refused(const QString& why);                           ///< no session was begun
+    void changed();          ///< stops, faults or participant's screen changed
+    void attentionWanted();  ///< the operator is asked something
+    void counted(const tacto::PilotCounts& counts);
+    void refused(const QString& why);  ///< no session was begun
     void ended(std::shared_ptr<const tacto::gui::FinishedRun> run);
     void runningChanged();
 
@@ -141,6 +141,7 @@ private:
     ScreenChoice* screens_ = nullptr;
     PilotStart start_;
     RunOrder order_;
+    ParticipantWords words_ = ParticipantWords::english();
     StopMark mark_{};
     SideWork asker_;                       ///< waits for the answer to the code
     std::atomic<bool> confirming_{false};  ///< the code is being confirmed

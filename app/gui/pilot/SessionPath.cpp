@@ -59,6 +59,9 @@ QString titleOf(int step, bool massager) {
 
 // The minute at which each step begins in the design, with the usual blocks; the last number is the session's end.
 constexpr double kBegins_min[kSteps + 1] = {0, 4, 6, 12, 23, 30, 58, 62, 66};
+constexpr double kTestTrial_s = 9;    // of the test, until trials have been timed
+constexpr int kTimedTrials = 5;       // so many tell how long a trial takes
+constexpr double kBetween_min = 3.6;  // between two blocks: break, check pulse and drift
 
 }  // namespace
 
@@ -104,6 +107,8 @@ void SessionPath::setTitle(const QString& title, const QString& below) {
 void SessionPath::begin(int blocks, bool counts, bool massager) {
     nameSeats(massager);
     screen_ = {};
+    trials_s_ = trials_ = 0;
+    trialAt_.invalidate();
     blocks_ = blocks;
     counts_ = counts;
     for (int step = 0; step < kSteps; ++step) steps_->setStepVisible(step, has(step));
@@ -132,7 +137,19 @@ void SessionPath::end(SessionEnd how) {
 
 bool SessionPath::has(int step) const { return blocks_ > 0 || std::ranges::count(kTested, step) == 0; }
 
+void SessionPath::count(const PilotCounts& counts) {
+    if (blocks_ > 0 && counts.blocks > 0) blocks_ = counts.blocks;
+    left_->setText(timeLeft());
+}
+
 void SessionPath::show(const PilotScreen& screen) {
+    if (screen.phase == "test" && screen.trial != screen_.trial) {
+        if (screen_.phase == "test" && screen.block == screen_.block && trialAt_.isValid()) {
+            trials_s_ += double(trialAt_.elapsed()) / 1000;
+            ++trials_;
+        }
+        trialAt_.start();
+    }
     screen_ = screen;
     reachFor(screen.phase);
     if (step_ == kTest && screen.phase == "test" && screen.trial > 0) {
@@ -149,14 +166,13 @@ void SessionPath::asked(const PilotPrompt& prompt) {
     if (prompt.to != PromptTo::Participant) reachFor(prompt.name);
 }
 
-void SessionPath::reachTest() { reach(kTest); }
-
 void SessionPath::reachFor(const std::string& name) {
     if (const auto step = stepOf(name, step_); step && *step > step_) reach(*step);
 }
 
 /// Marks all steps before `step` as done; -1: nothing has begun.
 void SessionPath::reach(int step) {
+    if (step != step_) since_.start();
     step_ = std::max(0, step);
     for (int i = 0; i < kSteps; ++i) {
         const auto before = steps_->state(i);
@@ -179,8 +195,13 @@ QString SessionPath::timeLeft() const {
         if (!has(step)) continue;
         double lasts_min = kBegins_min[step + 1] - kBegins_min[step];
         if (step == kTest) lasts_min *= static_cast<double>(blocks_) / kUsualBlocks;
-        if (step == kTest && step == step_ && screen_.trials > 0)
-            lasts_min *= 1 - static_cast<double>(std::max(0, screen_.trial - 1)) / screen_.trials;
+        if (step == kTest && step == step_ && screen_.trials > 0) {
+            const double trial_s = trials_ >= kTimedTrials ? trials_s_ / trials_ : kTestTrial_s;
+            lasts_min = (screen_.trials - std::max(0, screen_.trial - 1)) * trial_s / 60 +
+                        std::max(0, blocks_ - screen_.block) * kBetween_min;
+        } else if (step == step_ && since_.isValid()) {
+            lasts_min = std::max(0.0, lasts_min - double(since_.elapsed()) / 60'000);
+        }
         rest_min += lasts_min;
     }
     return tr("about %1 min").arg(std::max(1, int(std::lround(rest_min))));

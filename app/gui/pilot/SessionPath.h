@@ -1,6 +1,7 @@
 // SessionPath.h - the steps of a pilot session, at the left of the page, with the state of each and the time left.
 #pragma once
 
+#include <QElapsedTimer>
 #include <QLabel>
 #include <QWidget>
 #include <string>
@@ -30,8 +31,8 @@ public:
     void begin(int blocks, bool counts, bool massager);
     void show(const PilotScreen& screen);
     void asked(const PilotPrompt& prompt);
-    /// Marks the test as under way, for a session without screens.
-    void reachTest();
+    /// Takes the number of blocks as the session has it.
+    void count(const PilotCounts& counts);
     /// Marks the session as ended; no step is under way any more.
     void end(SessionEnd how);
     /// Resets to the state before a session.
@@ -53,6 +54,10 @@ private:
     int step_ = 0;
     int blocks_ = kUsualBlocks;
     bool counts_ = false;
+    QElapsedTimer since_;    // since the step began
+    QElapsedTimer trialAt_;  // since the last trial of the test began
+    double trials_s_ = 0;    // how long trials of the test took ...
+    int trials_ = 0;         // ... and how many
 };
 
 }  // namespace tacto::gui

@@ -103,6 +103,8 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
     asks_->setVisible(!virtual_);
     seats_->showFor(!virtual_);
     seats_->setBlind(study.settings().blind);
+    seats_->offerWords(qtext(study.folder().string()), study.settings().words);
+    blocks_ = study.settings().blocks;
     study_ = qtext(study.settings().id);
     seats_->recall(study_);
     if (const auto& approved = study.settings().procedure) form_->set("method", qtext(nameOf(approved->method)));
@@ -120,12 +122,15 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
     judge();
 }
 
+void SessionStartPage::chooseGoOn() { offer_->chooseGoOn(); }
+
 PilotStart SessionStartPage::start() const {
     PilotStart made;
     made.title = title_;
     made.participant = code_;
     made.devices = devices_->chosen();
     made.massager = massager_;
+    made.studyBlocks = blocks_;
     made.who = qtext(code_);
     made.person = !virtual_;
     made.confirmsCode = !virtual_;

@@ -30,6 +30,8 @@ public:
     explicit SessionStartPage(const DeviceWatch& watch, QWidget* parent = nullptr);
     /// Resets the page for a session with `participant`.
     void prepare(const Study& study, const Participant& participant);
+    /// Chooses to go on with the interrupted session, if that is possible.
+    void chooseGoOn();
     /// Returns all settings except the study's folder and passphrase.
     [[nodiscard]] PilotStart start() const;
     [[nodiscard]] ScreenChoice& screens() const { return seats_->screens(); }
@@ -51,6 +53,7 @@ private:
     std::string code_;
     QString title_;  ///< the study's title
     QString study_;  ///< the study's id
+    int blocks_ = 5;
     bool virtual_ = false;
     bool rehearsal_ = false;
     bool massager_ = false;

@@ -26,6 +26,8 @@ Result<std::optional<Unfinished>> unfinishedOf(const Study& study, const Partici
     found.number = open->number;
     found.protocol = open->protocol;
     found.answered = whole->answered;
+    found.person = whole->basis != SessionBasis::Virtual;
+    if (rows) found.language = qtext(rows->language);
     const auto brokenOff = rows && rows->answeredAt ? *rows->answeredAt : open->parts.back().begun;
     found.brokenOff = QDateTime::fromSecsSinceEpoch(brokenOff.time_since_epoch().count());
     if (!rows) {

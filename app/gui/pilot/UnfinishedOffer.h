@@ -21,6 +21,8 @@ struct Unfinished {
     QDateTime brokenOff;
     bool mayGoOn = true;    ///< true if the session was interrupted recently enough to continue
     bool complete = false;  ///< the session was completed, but the study does not know: nothing is left to ask
+    bool person = false;    ///< a person answered
+    QString language{};     ///< in which its participant reads; empty if not known
     QString trouble{};      ///< why it cannot be resumed: its record cannot be read or was changed
     bool operator==(const Unfinished&) const = default;
 };
@@ -33,6 +35,8 @@ public:
     explicit UnfinishedOffer(QWidget* parent = nullptr);
     /// Shows the offer; hides itself if there is nothing to offer.
     void offer(const std::optional<Unfinished>& unfinished);
+    /// Chooses to go on, if that is possible.
+    void chooseGoOn() { goOn_->setChecked(goOn_->isEnabled() && asks()); }
     [[nodiscard]] bool asks() const { return offered_.has_value(); }
     /// Returns "resume" or "end", the protocol's setting; empty if nothing is offered or chosen.
     [[nodiscard]] std::string chosen() const;

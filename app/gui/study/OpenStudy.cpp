@@ -4,7 +4,9 @@
 
 #include "app/gui/theme/Text.h"
 #include "app/run/Shipped.h"
+#include "core/base/JsonText.h"
 #include "core/base/Words.h"
+#include "core/pilot/PilotRecord.h"
 #include "core/session/SessionReader.h"
 #include "core/sharing/results/StudyResults.h"
 
@@ -13,12 +15,12 @@ namespace tacto::gui {
 namespace {
 
 /// Returns a session's outcome, read from its files with the study's key: verdict, reasons and results as recorded, and
-/// whether the session was simulated; all else is empty. Errors: kGateRefused for a session that is not complete;
+/// whether the session was simulated; all else is empty. A stopped session may have only the reason
+/// of its end. Errors: kGateRefused for an unfinished session;
 /// NotFound if its files hold no result; as Study::part().
 Result<RunResult> recordedResult(const Study& study, const StudySession& session) {
-    if (session.state != StudySessionState::Complete)
-        return fail(kGateRefused, "session {} is {}; only a complete one has a result", session.number,
-                    nameOf(session.state));
+    if (session.state == StudySessionState::Unfinished)
+        return fail(kGateRefused, "session {} is unfinished; only one that has ended has a result", session.number);
     RunResult result;
     bool found = false;
     for (const auto& part : session.parts) {
@@ -37,6 +39,14 @@ Result<RunResult> recordedResult(const Study& study, const StudySession& session
         result.outcome.reasons = std::move(last.reasons);
         result.outcome.results = std::move(last.results);
         found = true;
+    }
+    if (!found && session.state == StudySessionState::Stopped) {
+        const auto rows = study.events(session);
+        if (!rows) return failure(rows);
+        for (const auto& each : *rows)
+            if (each.name == row::kSessionEnd) result.outcome.reasons = {textOr(each.body, "why")};
+        result.outcome.reasons.push_back(fmt::format("Stopped; {} answers are on disk.", session.answered));
+        return result;
     }
     if (!found)
         return fail(ErrorCode::NotFound, "the record of session {} of {} holds no result", session.number,

@@ -532,7 +532,7 @@ QDialog* amendDialog(OpenStudy& study, QWidget* parent) {
     asks->resize(scaledPx(kAmendWide), kDialogHigh);
     QObject::connect(form, &StudyForm::edited, asks, [asks] { asks->clearTrouble(); });
     asks->finish(tr("Note the amendment"), "amendNow", tr("Nothing was changed."), [=](Study& into) -> Result<void> {
-        auto settings = form->read(asks->opened().profile());
+        auto settings = form->read(asks->opened().profile(), asks->opened().folder());
         if (!settings) return failure(settings);
         const auto reference = settings->approval.reference;
         return into.amend(std::move(*settings), reference);

@@ -248,7 +248,7 @@ void StudyForm::set(const std::string& key, const QString& text) {
     for (auto* form : groups_) form->set(key, text);
 }
 
-Result<StudySettings> StudyForm::read(const Profile& profile) {
+Result<StudySettings> StudyForm::read(const Profile& profile, const QString& folder) {
     const auto settings = shownIn(amended_);
     auto json = studyFields().write(settings);
     for (auto* form : groups_) {
@@ -275,7 +275,7 @@ Result<StudySettings> StudyForm::read(const Profile& profile) {
     }
     auto filled = studyFields().read(json, RecordPlace{});
     if (!filled) return tl::unexpected<Error>(asInvalidArgument(filled.error()));
-    if (auto stated = stateProgram(*filled, profile); !stated) return failure(stated);
+    if (auto stated = stateProgram(*filled, profile, folder.toStdString()); !stated) return failure(stated);
     return filled;
 }
 

@@ -459,10 +459,10 @@ const StudySession* StudySessions::chosen() const {
 
 void StudySessions::judge() {
     const auto* one = chosen();
-    const bool complete = one != nullptr && one->state == StudySessionState::Complete;
-    result_->setEnabled(readable_ && complete);
-    result_->setToolTip(complete ? tr("What the selected session came to, read from its record.")
-                                 : tr("Select a session that is complete: only those have a result."));
+    const bool ended = one != nullptr && one->state != StudySessionState::Unfinished;
+    result_->setEnabled(readable_ && ended);
+    result_->setToolTip(ended ? tr("What the selected session came to, read from its record.")
+                              : tr("Select a session that has ended: only those have a result."));
 }
 
 }  // namespace tacto::gui

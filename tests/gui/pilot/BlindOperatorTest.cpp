@@ -136,6 +136,7 @@ protected:
             gui::PilotStart start;
             start.blind = blind;
             page->begin(start);
+            page->count({.answers = i, .voided = i / 30, .blocks = 5});
             auto waiting = testScreen(ScreenState::Dot);
             waiting.impedance_ohm = 3200;
             page->show(waiting);

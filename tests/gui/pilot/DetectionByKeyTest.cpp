@@ -28,7 +28,7 @@ protected:
                    : felt.level < kStrong_ma    ? Qt::Key_2
                    : felt.level < kTooStrong_ma ? Qt::Key_3
                                                 : Qt::Key_4;
-        if (first == "yes") return Qt::Key_1;
+        if (first == "yes" || first == "go-on") return Qt::Key_1;
         if (first != "first") return Qt::Key_H;  // the answer to "hold"
         ++asked;
         const bool second = felt.level < kFelt_ma ? ++guesses % 2 == 0 : felt.inInterval == 2;

@@ -44,6 +44,7 @@ protected:
             telemetry.impedance_ohm = 1e6;  // an impedance measured during a train would tell which train it is
             auto screen = testScreen(ScreenState::Feel, i);
             screen.impedance_ohm = 3400 + 6 * i + (i % 3) * 12;
+            page.count({.answers = i - 1, .voided = i / 20, .blocks = 5});
             page.show(screen);
             page.refresh(telemetry);
             auto prompt = conditionPrompt(kFour);
@@ -132,8 +133,27 @@ TEST_F(Operator8b, SaysWhereTheSessionIs) {
     runTo(27);
     const auto says = allText();
     EXPECT_THAT(says, HasSubstr("Test, block 2 of 5, trial 27 of 90"));
-    EXPECT_THAT(says, HasSubstr("26 answered · 0 repeated · next break after trial 36, in about 2 min"));
+    EXPECT_THAT(says, HasSubstr("1 trial voided · next break after trial 36, in about 2 min"));
     EXPECT_THAT(says, HasSubstr("26 answers on disk"));
+}
+
+TEST_F(Operator8b, SaysWhatIsWaitedFor) {
+    PilotScreen screen;
+    screen.phase = "checklist";
+    screen.operatorText = "Waiting 30 s between the two checks of the electrodes";
+    screen.operatorMayKnow = true;
+    screen.until = toInstant(Seconds(100));
+    page.show(screen);
+    Telemetry telemetry;
+    for (const auto& [at_s, left] : {std::pair{71.2, "29 s left"}, {99.5, "1 s left"}, {101.0, "the time is over"}}) {
+        telemetry.at = toInstant(Seconds(at_s));
+        page.refresh(telemetry);
+        EXPECT_THAT(allText(), HasSubstr("between the two checks of the electrodes: " + std::string(left)));
+    }
+    screen = testScreen(ScreenState::Break);
+    screen.until = toInstant(Seconds(160));
+    page.show(screen);
+    EXPECT_THAT(allText(), HasSubstr("Break: both go on when they want to: 59 s left"));
 }
 
 TEST_F(Operator8b, SaysTheSameStepAsThePath) {

@@ -1,9 +1,13 @@
 // Tests the participant's answers by key, mouse and finger (once, after the targets), and stops from everywhere.
+#include <QAbstractButton>
+#include <QLabel>
 #include <QPointingDevice>
 #include <algorithm>
 #include <gmock/gmock.h>
+#include <set>
 
 #include "app/gui/pilot/ParticipantStop.h"
+#include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/pilot/SeatedPeople.h"
 #include "tests/support/InTime.h"
@@ -193,6 +197,71 @@ TEST_F(Seated, LettingGoWhileLevelsRiseStops) {
     QTest::keyRelease(window.windowHandle(), Qt::Key_H);
     EXPECT_THAT(stops, ElementsAre("participant let go"));
     EXPECT_FALSE(desk.holding());
+}
+
+TEST_F(Seated, WithOneHandTheyLetGoToAnswerAndHoldAgain) {
+    RecordProperty("hazard", "H6");
+    auto* hold = window.findChild<gui::AnswerTarget*>("hold");
+    for (const char* word : {"weak", "strong", "nothing"}) {
+        ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
+        QTest::mousePress(hold, Qt::LeftButton);
+        ASSERT_TRUE(answered());
+        ASSERT_NO_FATAL_FAILURE(ask(strengthPrompt()));
+        QTest::mouseRelease(hold, Qt::LeftButton);
+        EXPECT_TRUE(stops.empty()) << "nothing is delivered while the question waits";
+        EXPECT_FALSE(desk.holding()) << "and nothing is before they hold again";
+        QTest::mousePress(&target(word), Qt::LeftButton);
+        const auto said = answered();
+        ASSERT_TRUE(said);
+        EXPECT_THAT(said->keys, ElementsAre(word));
+    }
+    ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
+    QTest::mousePress(hold, Qt::LeftButton);
+    ASSERT_TRUE(answered());
+    QTest::mouseRelease(hold, Qt::LeftButton);
+    EXPECT_THAT(stops, ElementsAre("participant let go")) << "outside a question it is a stop";
+}
+
+TEST_F(Seated, ReadsAllInTheirLanguage) {
+    const auto& all = ParticipantWords::builtIn();
+    const auto german = std::ranges::find(all, "de", &ParticipantWords::code);
+    ASSERT_NE(german, all.end());
+    window.setWords(*german);
+    const auto texts = [this] {
+        QStringList said;
+        for (const auto* label : window.findChildren<QLabel*>())
+            if (label->isVisible()) said << label->text();
+        for (const auto* button : window.findChildren<QAbstractButton*>())
+            if (button->isVisible()) said << button->text() << button->accessibleName();
+        return said.join('|');
+    };
+    std::set<QString> english;
+    for (const auto& [key, text] : ParticipantWords::english().all())
+        if (text.size() > 8 && german->text(key) != text && text.find('{') == std::string::npos)
+            english.insert(QString::fromStdString(text));
+    const PilotPrompt asked[] = {strengthPrompt(*german),
+                                 intervalPrompt(*german),
+                                 conditionPrompt(kFour, *german),
+                                 meantPrompt(*german),
+                                 holdPrompt(*german),
+                                 goOnPrompt(german->text("introduction.3"), PromptTo::Participant, *german)};
+    int pictures = 0;
+    for (const auto& prompt : asked) {
+        ASSERT_NO_FATAL_FAILURE(ask(prompt));
+        for (const auto& each : english) EXPECT_FALSE(texts().contains(each)) << each.toStdString();
+        EXPECT_EQ(faultsOf(window), "") << prompt.name;
+        if (pictures++ % 2 == 1 || pictures == 6) shot(window, ("participant-german-" + prompt.name).c_str());
+        if (prompt.kind == PromptKind::Hold)
+            QTest::keyPress(window.windowHandle(), Qt::Key_H);
+        else
+            key(Qt::Key_1);
+        ASSERT_TRUE(answered());
+    }
+    for (const auto state : {ScreenState::Feel, ScreenState::Interval, ScreenState::Break, ScreenState::Ended}) {
+        desk.show(testScreen(state));
+        QCoreApplication::processEvents();
+        for (const auto& each : english) EXPECT_FALSE(texts().contains(each)) << each.toStdString();
+    }
 }
 
 TEST_F(Seated, LettingGoOfTheTargetStopsAndAtRestItDoesNot) {

@@ -99,7 +99,10 @@ TEST(PilotResult, AnEarlyEndSaysWhyAndOffersToGoOn) {
     view.show(run, "/home/lab/rehearsal-1");
     static_cast<QWidget&>(view).show();
     ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&view));
-    EXPECT_NE(find<QPushButton>(view, "Go on with the session"), nullptr);
+    const auto* goOn = view.findChild<QPushButton*>("goOnWithSession");
+    EXPECT_FALSE(goOn->isVisible()) << "it would begin another one";
+    view.setMayGoOn(true);
+    EXPECT_TRUE(goOn->isVisible());
     EXPECT_FALSE(view.findChild<QTableWidget*>("confusion")->isVisible());
 }
 

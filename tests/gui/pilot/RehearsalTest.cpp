@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <future>
+#include <set>
 #include <thread>
 
 #include "app/gui/pilot/InputRows.h"
+#include "app/gui/pilot/OperatorPage.h"
 #include "app/gui/pilot/OperatorStrip.h"
 #include "app/gui/pilot/ParticipantStop.h"
 #include "app/gui/pilot/ParticipantWindow.h"
@@ -18,6 +20,7 @@
 #include "app/gui/pilot/RehearsalPage.h"
 #include "app/gui/pilot/SeatRows.h"
 #include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/window/RecordingLine.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/study/Study.h"
@@ -48,6 +51,23 @@ protected:
         click(*pilot->findChild<QPushButton*>("beginRehearsal"));
         const auto* trouble = pilot->findChild<QLabel*>("rehearsalTrouble");
         ASSERT_TRUE(pilot->running()) << trouble->text().toStdString();
+    }
+    /// Reads the introduction to its end.
+    void readOn() {
+        auto* theirs = pilot->participantWindow();
+        ASSERT_NE(theirs, nullptr);
+        for (int page = 1; page <= 3; ++page) {
+            const auto text = gui::qtext(ParticipantWords::english().text(fmt::format("introduction.{}", page)));
+            ASSERT_IN_TIME(comesTrue([&] { return theirs->asking() && theirs->title() == text; }, 20'000))
+                << theirs->title().toStdString();
+            shot(*theirs, ("pilot-introduction-" + std::to_string(page)).c_str());
+            QTest::keyClick(theirs->windowHandle(), Qt::Key_1);
+        }
+        ASSERT_IN_TIME(
+            comesTrue([&] { return theirs->asking() && theirs->title().contains("try your STOP"); }, 20'000));
+    }
+    [[nodiscard]] bool matrixShown() const {
+        return pilot->findChild<QTableWidget*>("confusion")->isVisible() && headline().size() > 10;
     }
     [[nodiscard]] std::string headline() const {
         return (pilot->findChild<QLabel*>("pilotHeadline")->text() + '\n' +
@@ -109,6 +129,40 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     click(*pilot->findChild<QPushButton*>("backFromResult"));
     EXPECT_EQ(text("rehearsalTitle"), "Another session of this rehearsal");
     EXPECT_TRUE(pilot->findChild<gui::TabbedPage*>()->isVisible()) << "the way to the study";
+    auto* last = pilot->findChild<QPushButton*>("lastResult");
+    ASSERT_TRUE(last->isVisible());
+    const auto before = headline();
+    pilot->findChild<QLabel*>("pilotHeadline")->clear();
+    click(*last);
+    ASSERT_IN_TIME(comesTrue([this] { return matrixShown(); }, 20'000));
+    EXPECT_EQ(headline(), before) << "an ended session opens again with its result";
+    EXPECT_FALSE(pilot->findChild<QPushButton*>("goOnWithSession")->isVisible());
+    click(*pilot->findChild<QPushButton*>("backFromResult"));
+    EXPECT_EQ(pilot->findChild<QComboBox*>("whoAnswers")->currentData(), "virtual");
+    EXPECT_FALSE(pilot->findChild<QComboBox*>("whoAnswers")->isEnabled()) << "who began it goes on with it";
+}
+
+TEST_F(RehearsalInTheWindow, TenTimesAsFastThereIsSomethingToWatch) {
+    RecordProperty("hazard", "H9");
+    auto* page = window.findChild<gui::RehearsalPage*>();
+    auto* pace = page->findChild<QComboBox*>("rehearsalPace");
+    pace->setCurrentIndex(pace->findData("tenfold"));
+    EXPECT_EQ(page->rehearsal().pace, 10);
+    begin(false);
+    auto* operators = pilot->findChild<gui::OperatorPage*>();
+    std::set<QString> places;
+    ASSERT_IN_TIME(comesTrue(
+        [&] {
+            places.insert(operators->where());
+            return places.size() >= 3 || !pilot->running();
+        },
+        30'000));
+    EXPECT_TRUE(pilot->running()) << "it is not over in seconds";
+    EXPECT_TRUE(places.contains("Rising levels, series 1 of 3"))
+        << QStringList(places.begin(), places.end()).join('|').toStdString();
+    shot(window, "pilot-tenfold");
+    window.controller().stop("operator (STOP)");
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
 }
 
 TEST_F(RehearsalInTheWindow, AtTheSessionsOwnPaceThereIsSomethingToWatch) {
@@ -119,7 +173,7 @@ TEST_F(RehearsalInTheWindow, AtTheSessionsOwnPaceThereIsSomethingToWatch) {
     EXPECT_FALSE(pace->isVisible()) << "a person has a pace of their own";
     page->findChild<QComboBox*>("whoAnswers")->setCurrentIndex(0);
     EXPECT_TRUE(pace->isVisible());
-    pace->setCurrentIndex(1);
+    pace->setCurrentIndex(pace->findData("own"));
     page->findChild<QCheckBox*>("blind")->setChecked(false);
     shot(window, "pilot-new-own-pace");
     begin(false);
@@ -190,8 +244,7 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     begin(true);
     auto* theirs = pilot->participantWindow();
     ASSERT_NE(theirs, nullptr);
-    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
-    EXPECT_NE(theirs->title().indexOf("STOP"), -1) << theirs->title().toStdString();
+    ASSERT_NO_FATAL_FAILURE(readOn());
     shot(*theirs, "pilot-stop-test");
     QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);
     const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
@@ -242,7 +295,7 @@ TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
     begin(true);
     auto* theirs = pilot->participantWindow();
     ASSERT_NE(theirs, nullptr);
-    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
+    ASSERT_NO_FATAL_FAILURE(readOn());
     QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);
     const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
     ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && strip->question().open(); }, 20'000));
@@ -262,6 +315,19 @@ TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
     const auto note = std::ranges::find(events, row::kNote, &SessionRow::name);
     ASSERT_NE(note, events.end());
     EXPECT_EQ(note->body["reason"], "fire alarm");
+    auto* page = pilot->findChild<gui::RehearsalPage*>();
+    EXPECT_TRUE(page->rehearsal().person) << "a person's rehearsal preselects no model";
+    const auto answers = count(row::kPhase);
+    click(*find<QPushButton>(*pilot, "Go on with the session"));
+    ASSERT_TRUE(pilot->running()) << headline();
+    auto* again = pilot->participantWindow();
+    ASSERT_IN_TIME(comesTrue([&] { return again->asking() && again->title().contains("try your STOP"); }, 20'000))
+        << "the introduction was read: " << again->title().toStdString();
+    window.controller().stop("operator (abort)");
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
+    EXPECT_EQ(count(row::kPhase), answers) << "nothing was asked twice";
+    const auto after = Study::open(folder.path() / "study", nullptr, Study::Access::Read);
+    EXPECT_EQ(after->sessions().size(), 1U) << "it went on with it, and began no other";
 }
 
 /// A stimulator whose fault names a train.
@@ -299,8 +365,7 @@ TEST_F(FaultWhileBlind, NoTextInAnyWindowNamesANumberOfItsTrain) {
         begin(true);
         ASSERT_EQ(pilot->blind(), blind);
         auto* theirs = pilot->participantWindow();
-        ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
-        ASSERT_NE(theirs->title().indexOf("STOP"), -1) << theirs->title().toStdString();
+        ASSERT_NO_FATAL_FAILURE(readOn());
         *plugged = false;
         ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Faulted; }));
         std::string said;
@@ -332,8 +397,7 @@ TEST_F(RehearsalInTheWindow, AScreenThatGoesIsAPauseUntilTheWindowIsSeatedAgain)
     RecordProperty("hazard", "H2");
     begin(true);
     auto* theirs = pilot->participantWindow();
-    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
-    ASSERT_NE(theirs->title().indexOf("STOP"), -1);
+    ASSERT_NO_FATAL_FAILURE(readOn());
     for (auto* each : pilot->findChildren<gui::ScreenChoice*>()) emit each->lost("HDMI-1");  // one is the session's
     EXPECT_FALSE(theirs->isVisible()) << "it would lie over the operator's";
     auto* asks = pilot->findChild<gui::OperatorAsk*>("operatorAsk");
@@ -344,10 +408,10 @@ TEST_F(RehearsalInTheWindow, AScreenThatGoesIsAPauseUntilTheWindowIsSeatedAgain)
     letLive(150);
     click(*goOn());
     ASSERT_IN_TIME(comesTrue([&] { return theirs->isVisible() && theirs->asking(); }, 20'000));
-    EXPECT_EQ(theirs->title().indexOf("being tested"), -1) << "their own go on comes first";
+    EXPECT_EQ(theirs->title().indexOf("try your STOP"), -1) << "their own go on comes first";
     QTest::keyClick(theirs->windowHandle(), Qt::Key_1);
     ASSERT_IN_TIME(
-        comesTrue([&] { return theirs->asking() && theirs->title().indexOf("being tested") != -1; }, 20'000));
+        comesTrue([&] { return theirs->asking() && theirs->title().indexOf("try your STOP") != -1; }, 20'000));
     letLive(150);
     window.controller().stop("operator (signal)");  // a press would count for the wrong STOP
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
@@ -406,7 +470,8 @@ TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABrea
     const auto before = gui::rememberedInput(gui::kRehearsals, PluggedButtons::pad("pedal", 1));
     ASSERT_TRUE(before) << "offered in the next one";
     EXPECT_EQ(before->whose, PromptTo::Operator);
-    const auto tests = [&] { return theirs->asking() && theirs->title().indexOf("being tested") != -1; };
+    ASSERT_NO_FATAL_FAILURE(readOn());
+    const auto tests = [&] { return theirs->asking() && theirs->title().indexOf("try your STOP") != -1; };
     ASSERT_IN_TIME(comesTrue(tests, 20'000));
 
     plugged->plug("pad", false);  // an unplugged STOP does not count as pressed
@@ -417,7 +482,7 @@ TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABrea
     plugged->plug("pad", true);
     pilot->pauseSession(false);
     ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
-    EXPECT_EQ(theirs->title().indexOf("being tested"), -1) << "their own go on comes first";
+    EXPECT_EQ(theirs->title().indexOf("try your STOP"), -1) << "their own go on comes first";
     plugged->press("pad", 1);
     plugged->press("pad", 1, false);
     ASSERT_IN_TIME(comesTrue(tests, 20'000));

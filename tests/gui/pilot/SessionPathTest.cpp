@@ -47,6 +47,23 @@ TEST_F(PathOfASession, OfThresholdsAloneHasNoTestAndCountsNoTimeForIt) {
     EXPECT_THAT(steps(), Contains("Test")) << "the next session may have one";
 }
 
+TEST_F(PathOfASession, CountsTheBlocksThatTheSessionHas) {
+    path.begin(gui::kUsualBlocks, true, false);
+    path.count({.answers = 0, .voided = 0, .blocks = 3});
+    EXPECT_EQ(timeLeft(), "about 55 min") << "as that of 66 min with 3 of 5 blocks of its 28 min";
+    PilotScreen screen;
+    screen.phase = "test";
+    screen.block = 3;
+    screen.blocks = 3;
+    screen.trial = 54;
+    screen.trials = 54;
+    path.show(screen);
+    EXPECT_EQ(timeLeft(), "about 8 min") << "the last trial, ratings, skin";
+    path.begin(0, true, false);
+    path.count({.answers = 0, .voided = 0, .blocks = 5});
+    EXPECT_EQ(timeLeft(), "about 27 min") << "thresholds alone have no blocks";
+}
+
 TEST_F(PathOfASession, WithoutAUsableRangeDidNotRunItsTest) {
     path.begin(gui::kUsualBlocks, true, false);
     path.end(SessionEnd::NoRange);

@@ -181,7 +181,7 @@ TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
     ASSERT_NO_FATAL_FAILURE(seeList());
     EXPECT_EQ(cell(0, 5), "interrupted, can continue");
     EXPECT_FALSE(showResult().isEnabled());
-    EXPECT_THAT(showResult().toolTip().toStdString(), HasSubstr("complete"));
+    EXPECT_THAT(showResult().toolTip().toStdString(), HasSubstr("ended"));
     ASSERT_NO_FATAL_FAILURE(start());
     const auto says = page().findChild<QLabel*>("unfinishedSays")->text().toStdString();
     EXPECT_THAT(says, HasSubstr("Session 1 was interrupted at "));
@@ -258,6 +258,10 @@ TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndTheSessionRunsOnTheMassagerT
         20'000));
     theirs = pilot->participantWindow();
     ASSERT_NO_FATAL_FAILURE(confirmCode());
+    for (const char* page : {"Welcome", "You decide", "This screen"}) {
+        ASSERT_IN_TIME(comesTrue([&] { return theirs->asking() && theirs->title().startsWith(page); }, 20'000));
+        answer(Qt::Key_1);
+    }
     const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
     ASSERT_IN_TIME(
         comesTrue([&] { return !pilot->running() || (strip->isVisible() && strip->question().open()); }, 20'000));

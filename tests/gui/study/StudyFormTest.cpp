@@ -20,6 +20,7 @@ const std::vector<std::string> kOfTheProgram{"id",
                                              "conditions",
                                              "train.shape",
                                              "scripts",
+                                             "words",
                                              "procedure.interval_min_s",
                                              "procedure.interval_max_s",
                                              "procedure.conditions_sha256"};
@@ -30,7 +31,7 @@ TEST(StudyForm, HasEveryFieldOfTheCoreOnceAndNoOther) {
     described.insert(kOfTheProgram.begin(), kOfTheProgram.end());
     std::multiset<std::string> stored;
     for (const auto& info : studyFields().infos()) {
-        const bool list = info.key == "limits" || info.key == "scripts";
+        const bool list = info.key == "limits" || info.key == "scripts" || info.key == "words";
         if (info.members.empty() || list) stored.insert(info.key);
         for (const auto& member : info.members) {
             if (!list) stored.insert(info.key + "." + member.key);
