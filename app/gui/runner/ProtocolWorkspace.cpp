@@ -361,6 +361,8 @@ void ProtocolWorkspace::goOn(NextStep next) {
     }
 }
 
+QString ProtocolWorkspace::report() const { return last_ ? pages_->sign().report() : QString(); }
+
 /// Shows the report, or says what it waits for and shows it once it is drawn.
 void ProtocolWorkspace::showReport() {
     const auto& sign = pages_->sign();

@@ -31,6 +31,8 @@ public:
     /// Shows the news of the run; called thirty times a second.
     void refresh();
     [[nodiscard]] bool running() const { return running_; }
+    /// The written report of the run that ended last; empty if there is none.
+    [[nodiscard]] QString report() const;
     /// True if a protocol has been read, none runs here, and nothing prevents a run.
     [[nodiscard]] bool ready() const { return declaration_.has_value() && !running_ && obstacle_.isEmpty(); }
     /// True while a script is being read: its form does not exist yet.

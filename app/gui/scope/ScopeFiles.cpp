@@ -40,7 +40,7 @@ ScopeFiles::ScopeFiles(CapturePipe& pipe, ScopeModel& model, QWidget& window)
     png->setToolTip(tr("Ctrl+S"));
     menu_->addAction(tr("Save picture as SVG…"), this, [this] { askSave(tr("SVG drawing (*.svg)"), "svg"); });
     menu_->addAction(tr("Save picture as PDF…"), this, [this] { askSave(tr("PDF document (*.pdf)"), "pdf"); });
-    menu_->addAction(tr("Save visible data as CSV…"), this, [this] { askSave(tr("Capture (*.csv)"), "csv"); });
+    menu_->addAction(tr("Save visible data as CSV…"), this, &ScopeFiles::askSaveData);
     connect(&pipe_, &CapturePipe::saved, this,
             [this](const QString& path) { emit told(tr("Saved to %1.").arg(path), {}); });
 }
@@ -68,6 +68,8 @@ void ScopeFiles::askOpen() {
 }
 
 void ScopeFiles::askSavePicture() { askSave(tr("PNG picture (*.png)"), "png"); }
+
+void ScopeFiles::askSaveData() { askSave(tr("Capture (*.csv)"), "csv"); }
 
 void ScopeFiles::askSave(const QString& filter, const QString& ending) {
     FileQuestion question{.title = tr("Save as %1").arg(ending.toUpper()),

@@ -29,6 +29,11 @@ public:
     [[nodiscard]] static QString captureGlobs();
     void askOpen();
     void askSavePicture();
+    void askSaveData();
+    /// Returns errors as a sentence.
+    [[nodiscard]] std::optional<QString> savePicture(const QString& path) const {
+        return saveScopePicture(still(), path);
+    }
     void copyPicture();
     /// Saves what is shown now: a picture (.png, .svg, .pdf) or, in the background, the visible data (.csv).
     void saveAs(const QString& path) { saveAs(path, still()); }

@@ -134,6 +134,7 @@ void ScopeWorkspace::addKeys() {
         // The tools may be in a row outside this page; the keys work wherever the focus is.
         shortcut->setContext(Qt::WindowShortcut);
         connect(shortcut, &QShortcut::activated, this, task);
+        return shortcut;
     };
     onKey(Qt::Key_A, [this] { setMode(ScopeMode::Auto); });
     onKey(Qt::Key_N, [this] { setMode(ScopeMode::Normal); });
@@ -143,9 +144,10 @@ void ScopeWorkspace::addKeys() {
     onKey(Qt::Key_B, [this] { tools_->tool(ScopeTool::Box).toggle(); });
     onKey(Qt::Key_R, [this] { running() ? hold() : run(); });
     onKey(Qt::Key_D, [this] { emit driveWanted(); });
-    onKey(QKeySequence::Save, [this] {
+    auto* save = onKey(QKeySequence::Save, [this] {
         if (model_.shown()) files_->askSavePicture();
     });
+    save->setObjectName("savePictureKey");  // a window with a File menu has the key there
     onKey(QKeySequence::Undo, [this] { model_.undoZoom(); });
 }
 
@@ -361,6 +363,7 @@ bool ScopeWorkspace::openCaptureFile(const QString& path) {
         showState();
         return false;
     }
+    emit fileAsked(path);
     hold();
     status_->forgetProblem();
     pipe_.open(path);
@@ -373,6 +376,12 @@ void ScopeWorkspace::show(std::shared_ptr<const Capture> capture, const QString&
 }
 
 void ScopeWorkspace::saveAs(const QString& path) { files_->saveAs(path); }
+
+void ScopeWorkspace::askSavePicture() { files_->askSavePicture(); }
+
+std::optional<QString> ScopeWorkspace::savePicture(const QString& path) const { return files_->savePicture(path); }
+
+void ScopeWorkspace::askSaveData() { files_->askSaveData(); }
 
 void ScopeWorkspace::tell(const QString& done, const QString& problem) {
     status_->tell(done, problem);

@@ -55,6 +55,11 @@ public:
 
     /// Saves a picture (.png, .svg, .pdf) or, in the background, the visible data (.csv).
     void saveAs(const QString& path);
+    [[nodiscard]] bool hasPicture() const { return model_.shown() != nullptr; }
+    void askSavePicture();
+    /// Returns errors as a sentence.
+    [[nodiscard]] std::optional<QString> savePicture(const QString& path) const;
+    void askSaveData();
 
     [[nodiscard]] ScopeMode mode() const noexcept { return acquisition_->mode(); }
     [[nodiscard]] bool running() const noexcept { return acquisition_->running(); }
@@ -75,6 +80,7 @@ public slots:
 signals:
     /// Reports every measured capture that comes to the screen; a MeasurementSummary shows it too.
     void captureShown(tacto::gui::ShownPtr shown);
+    void fileAsked(const QString& path);  ///< this file is being read
     /// The user asked for a bench on the empty page: the window opens the simulated bench.
     void openBenchWanted();
     /// The user pressed the key for the drive: the window shows the drive's dock.

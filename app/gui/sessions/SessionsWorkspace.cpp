@@ -106,9 +106,10 @@ QWidget* SessionsWorkspace::buildListActions() {
                             [this] { compare(); });
     actions_.add(*row, "verify", tr("Verif&y"),
                  tr("Is it what was recorded? Checks every row and sample against the chain."), [this] { verify(); });
-    actions_.add(*row, "export", tr("E&xport CSV…"),
-                 tr("A file per stream, trials, events with their marks, commands and captures."),
-                 [this] { askExport(); });
+    actions_
+        .add(*row, "export", tr("E&xport CSV…"),
+             tr("A file per stream, trials, events with their marks, commands and captures."), [this] { askExport(); })
+        ->setObjectName("exportSession");
     row->addStretch();
     auto* hint = new ElidedLabel(tr("Ctrl+click: a second · Ctrl+F: search"), holder);
     hint->setToolTip(hint->text());
@@ -180,6 +181,7 @@ void SessionsWorkspace::chosen() {
             if (!read) return details_->say(qtext(read.error().message));
             read_ = std::make_shared<ReadSession>(std::move(*read));
             details_->show(read_);
+            emit sessionShown(file());
             actions_.offer(capture_, read_->captures.empty() ? tr("This session holds no capture.") : QString());
             actions_.offer(replay_, holdsTouch(*read_) ? QString() : tr("This session holds no touch to replay."));
         });
@@ -188,6 +190,16 @@ void SessionsWorkspace::chosen() {
 void SessionsWorkspace::say(const QString& what) {
     says_->setText(what);
     says_->setVisible(!what.isEmpty());
+}
+
+QString SessionsWorkspace::file() const { return read_ ? qtext(read_->path.string()) : QString(); }
+
+QString SessionsWorkspace::writtenReport() const {
+    if (!read_) return {};
+    auto report = read_->path;
+    std::error_code error;
+    const bool written = std::filesystem::is_regular_file(report.replace_extension(".pdf"), error);
+    return written ? qtext(report.string()) : QString();
 }
 
 bool SessionsWorkspace::openSession(const QString& path) {

@@ -51,12 +51,17 @@ public:
     /// Lists a session from another folder too, and chooses it. Returns false if there is no such file.
     bool openSession(const QString& path);
     void rescan();
+    /// The file of the session that is shown; empty if none is.
+    [[nodiscard]] QString file() const;
+    /// The report beside that session, as PDF; empty if none is written.
+    [[nodiscard]] QString writtenReport() const;
     /// Writes the chosen session's CSV files into a new folder.
     void exportTo(const QString& folder);
 
 signals:
     void captureChosen(std::shared_ptr<const tacto::Capture> capture);
     void recordingReady(const QString& folder);
+    void sessionShown(const QString& path);
 
 protected:
     void dragEnterEvent(QDragEnterEvent* event) override;

@@ -303,6 +303,7 @@ void PictureTools::addTo(QLayout& row) {
 }
 
 void PictureTools::takeFrom(const std::function<Still()>& shown, const QString& name) {
+    shown_ = shown;
     connect(save_, &QToolButton::clicked, this,
             [this, shown, name] { askSavePicture(*save_->parentWidget(), shown(), name); });
     connect(copy_, &QToolButton::clicked, this, [shown] { copyPicture(shown()); });

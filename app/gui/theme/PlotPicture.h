@@ -105,6 +105,8 @@ public:
     void addTo(QLayout& row);
     /// Sets the picture that Save and Copy get when clicked; `name` is the suggested file name.
     void takeFrom(const std::function<Still()>& shown, const QString& name);
+    /// The picture that Save would get now; only after takeFrom().
+    [[nodiscard]] Still picture() const { return shown_(); }
 
 signals:
     /// Asks the window to show the plot alone, or everything again.
@@ -114,6 +116,7 @@ private:
     QToolButton* save_;
     QToolButton* copy_;
     QToolButton* plotOnly_;
+    std::function<Still()> shown_;
 };
 
 }  // namespace tacto::gui

@@ -2,6 +2,8 @@
 
 #include <QApplication>
 #include <QCloseEvent>
+#include <QDir>
+#include <QFileInfo>
 #include <QLabel>
 #include <QMenuBar>
 #include <QMimeData>
@@ -343,7 +345,7 @@ void MainWindow::resetLayout() {
     line_->say(tr("Docks and columns are where they were at first."));
 }
 
-/// Puts the state into the title, to be read in the taskbar even if another window covers this one.
+/// Puts the file and the state into the title, to be read in the taskbar even if another window covers this one.
 void MainWindow::showTitle() {
     const auto open = controller_.open();
     const bool simulated = open && open->simulated();
@@ -351,6 +353,10 @@ void MainWindow::showTitle() {
     QString title = simulated ? tr("Simulated") : QString();
     if (isOn(state) || state == InterlockState::Faulted)
         title = simulated ? tr("%1, simulated").arg(stateStyle(state).word) : stateStyle(state).word;
+    if (const QFileInfo file(workspaces_->file()); !file.filePath().isEmpty()) {
+        const auto name = file.fileName() == "recording.json" ? file.dir().dirName() : file.fileName();
+        title = isOn(state) || state == InterlockState::Faulted ? tr("%1 – %2").arg(title, name) : name;
+    }
     // The program's name stands last, because otherwise Qt would append the name.
     const auto whole = title.isEmpty() ? tr("Tactoscope") : tr("%1 – Tactoscope").arg(title);
     if (windowTitle() != whole) setWindowTitle(whole);

@@ -8,6 +8,7 @@
 #include "app/gui/calibrate/CertificateDialog.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/window/DockColumn.h"
+#include "app/gui/window/FileMenu.h"
 #include "app/gui/window/HelpWindow.h"
 #include "app/gui/window/MainWindow.h"
 #include "app/gui/window/RecordingLine.h"
@@ -15,13 +16,12 @@
 #include "app/gui/window/StateWords.h"
 #include "app/gui/window/StopButton.h"
 #include "app/gui/window/Workspaces.h"
-#include "app/scripting/engine/ProtocolLibrary.h"
 
 namespace tacto::gui {
 
 Menus::Menus(MainWindow& window, const QActionGroup& workspaces, DockColumn& docks, RecordingLine& line)
     : QObject(&window), window_(window), line_(line) {
-    addFiles();
+    new FileMenu(window_, *window_.findChild<Workspaces*>(), line_);
     addBench();
     addView(workspaces, docks);
     addHelp();
@@ -30,27 +30,6 @@ Menus::Menus(MainWindow& window, const QActionGroup& workspaces, DockColumn& doc
         for (auto* action : menu->menu()->actions())
             if (!action->shortcut().isEmpty()) window_.addAction(action);
     }
-}
-
-void Menus::addFiles() {
-    auto* file = window_.menuBar()->addMenu(tr("&File"));
-    file->addAction(tr("&Open…"), QKeySequence::Open, &window_, &MainWindow::chooseFile);
-    file->addAction(tr("Open &recording folder…"), &window_, &MainWindow::chooseRecording);
-    file->addAction(tr("Open the &example recording"), &window_, [this] {
-        if (const auto resources = resourcesFolder())
-            window_.openFile(QString::fromStdString((*resources / "examples" / "four-touches").string()));
-    });
-    recent_ = file->addMenu(tr("Re&cent"));
-    connect(recent_, &QMenu::aboutToShow, this, &Menus::fillRecent);
-    file->addSeparator();
-    file->addAction(tr("&Quit"), QKeySequence(Qt::CTRL | Qt::Key_Q), &window_, &QWidget::close);
-}
-
-void Menus::fillRecent() {
-    recent_->clear();
-    const auto files = recentFiles();
-    for (const auto& path : files) recent_->addAction(path, &window_, [this, path] { window_.openFile(path); });
-    if (files.isEmpty()) recent_->addAction(tr("nothing yet"))->setEnabled(false);
 }
 
 void Menus::addBench() {

@@ -18,16 +18,13 @@ public:
     Menus(MainWindow& window, const QActionGroup& workspaces, DockColumn& docks, RecordingLine& line);
 
 private:
-    void addFiles();
     void addBench();
     void addView(const QActionGroup& workspaces, DockColumn& docks);
     void addHelp();
-    void fillRecent();
     void showAbout();
 
     MainWindow& window_;
     RecordingLine& line_;
-    QMenu* recent_ = nullptr;
 };
 
 }  // namespace tacto::gui

@@ -1,8 +1,12 @@
 #include "app/gui/window/Workspaces.h"
 
+#include <QAbstractButton>
+#include <QDir>
 #include <QFileInfo>
 #include <QSettings>
+#include <QTableView>
 #include <algorithm>
+#include <functional>
 #include <iterator>
 
 #include "app/gui/calibrate/CalibrateWorkspace.h"
@@ -13,7 +17,10 @@
 #include "app/gui/scope/ScopeWorkspace.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "app/gui/theme/Pages.h"
+#include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/TableText.h"
+#include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/run/AllDrivers.h"
 #include "app/run/CaptureFormatsList.h"
@@ -30,18 +37,34 @@ Workspace* makeIn(ScrollingPage& page, Arguments&&... arguments) {
     return workspace;
 }
 
-void rememberRecentFile(const QString& path) {
+QString wholePath(const QString& path) { return QDir::cleanPath(QFileInfo(path).absoluteFilePath()); }
+
+/// Moves the file to the head of the recent ones, or takes it out of them.
+void rememberRecentFile(const QString& path, bool opens) {
     constexpr qsizetype kMaxFiles = 8;
-    auto files = recentFiles();
-    const auto absolute = QFileInfo(path).absoluteFilePath();
+    auto files = QSettings().value("recent").toStringList();
+    const auto absolute = wholePath(path);
     files.removeAll(absolute);
-    files.prepend(absolute);
+    if (opens) files.prepend(absolute);
     QSettings().setValue("recent", QStringList(files.mid(0, kMaxFiles)));
 }
 
+template <class T>
+T* shownIn(const QWidget& page, const std::function<bool(const T&)>& suits) {
+    for (auto* each : page.findChildren<T*>())
+        if (suits(*each)) return each;
+    return nullptr;
+}
+
+bool canBePressed(const QWidget& widget) { return widget.isVisible() && widget.isEnabled(); }
+
 }  // namespace
 
-QStringList recentFiles() { return QSettings().value("recent").toStringList(); }
+QStringList recentFiles() {
+    auto files = QSettings().value("recent").toStringList();
+    files.removeIf([](const QString& path) { return !QFileInfo::exists(path); });
+    return files;
+}
 
 Workspaces::Workspaces(BenchController& controller, CalibrationBook& calibrations, QWidget* parent)
     : QStackedWidget(parent), controller_(controller), calibrations_(calibrations) {
@@ -61,6 +84,43 @@ Workspaces::Workspaces(BenchController& controller, CalibrationBook& calibration
     connect(scope_, &ScopeWorkspace::markWanted, this, &Workspaces::markWanted);
     connect(scope_, &ScopeWorkspace::plotOnlyWanted, this, &Workspaces::plotOnlyWanted);
     connect(scope_, &ScopeWorkspace::openBenchWanted, this, &Workspaces::simulatedBenchWanted);
+    connectFiles();
+}
+
+/// A file counts as opened once its content is shown, which for all kinds is later than it is asked for.
+void Workspaces::connectFiles() {
+    connect(&controller_, &BenchController::changed, this, [this] {
+        const auto open = controller_.open();
+        recording_.clear();
+        if (!open) return;
+        for (const auto& device : open->about.devices) {
+            const auto uri = DeviceUri::parse(device.uri);
+            if (uri && uri->scheme == "recording") recording_ = qtext(uri->path);
+        }
+        noteOpened(recording_);
+    });
+    connect(scope_, &ScopeWorkspace::captureShown, this, [this](const ShownPtr& shown) {
+        const auto isOf = [&](const QString& path) {
+            return !path.isEmpty() && shown->source.startsWith(QFileInfo(path).fileName());
+        };
+        if (isOf(asked_))
+            capture_ = asked_;
+        else if (!isOf(capture_))
+            capture_.clear();
+        noteOpened(capture_);
+    });
+    connect(scope_, &ScopeWorkspace::fileAsked, this, &Workspaces::noteAsked);
+}
+
+void Workspaces::noteAsked(const QString& path) {
+    asked_ = path;
+    rememberRecentFile(path, false);  // until it is open
+}
+
+void Workspaces::noteOpened(const QString& path) {
+    if (asked_.isEmpty() || path.isEmpty() || wholePath(path) != wholePath(asked_)) return;
+    rememberRecentFile(path, true);
+    asked_.clear();
 }
 
 template <typename Workspace, typename... Arguments>
@@ -105,6 +165,7 @@ void Workspaces::addRunner(ProtocolWorkspace& runner, int page) {
 }
 
 void Workspaces::connectSessions() {
+    connect(sessions_, &SessionsWorkspace::sessionShown, this, &Workspaces::noteOpened);
     connect(sessions_, &SessionsWorkspace::captureChosen, this, [this](std::shared_ptr<const Capture> capture) {
         scope_->show(std::move(capture));
         showLive(kScope);
@@ -166,24 +227,97 @@ void Workspaces::refresh(const Telemetry& telemetry, bool measured, bool inSight
 
 void Workspaces::openFile(const QString& path) {
     const QFileInfo file(path);
-    bool opened = false;
+    noteAsked(path);
     if (!file.exists() && path.contains(QChar::ReplacementCharacter)) {
         emit complained(tr("The name of %1 is not UTF-8. Rename it first.").arg(path));
     } else if (file.isDir() || file.suffix() == "json") {
-        opened = live_->openRecording(path);
-        if (opened) showLive(kTouch);
+        if (live_->openRecording(path)) showLive(kTouch);
     } else if (file.suffix() == "tacto") {
         make(kSessions);
-        opened = sessions_->openSession(path);
-        if (opened) showPage(kSessions);
+        if (sessions_->openSession(path)) showPage(kSessions);
     } else if (captureFormats()->knowsSuffix(path.toStdString())) {
-        opened = scope_->openCaptureFile(path);
+        static_cast<void>(scope_->openCaptureFile(path));
         showLive(kScope);  // shows the capture, or why it was not opened
     } else {
         emit complained(tr("%1 is not a recording (a folder or recording.json), session (*.tacto) or capture (%2)")
                             .arg(path, ScopeFiles::captureGlobs()));
     }
-    if (opened) rememberRecentFile(path);
+}
+
+QString Workspaces::file() const {
+    if (currentIndex() == kSessions && sessions_ != nullptr) return sessions_->file();
+    if (showsScope() && !capture_.isEmpty()) return capture_;
+    return recording_;
+}
+
+PictureTools* Workspaces::pictures() const {
+    return shownIn<PictureTools>(*currentWidget(), [](const auto& tools) { return canBePressed(tools.save()); });
+}
+
+bool Workspaces::hasPicture() const { return showsScope() ? scope_->hasPicture() : pictures() != nullptr; }
+
+void Workspaces::askSavePicture() {
+    if (showsScope()) return scope_->askSavePicture();
+    if (auto* tools = pictures()) tools->save().click();
+}
+
+std::optional<QString> Workspaces::savePicture(const QString& path) const {
+    if (showsScope()) return scope_->savePicture(path);
+    const auto* tools = pictures();
+    return tools == nullptr ? std::nullopt : gui::savePicture(tools->picture(), path);
+}
+
+ProtocolWorkspace* Workspaces::shownRunner() const {
+    const auto all = runners();
+    const auto shown = std::ranges::find_if(all, &QWidget::isVisible);
+    return shown == all.end() ? nullptr : *shown;
+}
+
+QString Workspaces::report() const {
+    if (currentIndex() == kSessions && sessions_ != nullptr) return sessions_->writtenReport();
+    const auto* runner = shownRunner();
+    return runner == nullptr ? QString() : runner->report();
+}
+
+namespace {
+
+QAbstractButton* exportButtonOf(const QWidget& page) {
+    return shownIn<QAbstractButton>(page, [](const auto& button) {
+        return canBePressed(button) && (button.objectName() == "exportSession" || button.objectName() == "exportStudy");
+    });
+}
+
+QTableView* tableOn(const QWidget& page) {
+    return shownIn<QTableView>(page, [](const auto& table) {
+        return table.isVisible() && table.model() != nullptr && table.model()->rowCount() > 0;
+    });
+}
+
+}  // namespace
+
+bool Workspaces::canExport() const {
+    if (showsScope() && scope_->hasPicture()) return true;
+    return exportButtonOf(*currentWidget()) != nullptr || tableOn(*currentWidget()) != nullptr;
+}
+
+void Workspaces::askExport() {
+    if (showsScope() && scope_->hasPicture()) return scope_->askSaveData();
+    if (auto* button = exportButtonOf(*currentWidget())) return button->click();
+    if (auto* table = tableOn(*currentWidget())) TableCopies::askSave(*table);
+}
+
+bool Workspaces::canClose() const {
+    return shownIn<QAbstractButton>(*currentWidget(),
+                                    [](const auto& button) {
+                                        return canBePressed(button) && button.objectName() == "closeStudy";
+                                    }) != nullptr ||
+           controller_.activity() == Activity::Live;
+}
+
+void Workspaces::closeFile() {
+    auto* study = currentWidget()->findChild<QAbstractButton*>("closeStudy");
+    if (study != nullptr && canBePressed(*study)) return study->click();
+    controller_.close();
 }
 
 }  // namespace tacto::gui

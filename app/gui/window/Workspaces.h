@@ -5,6 +5,7 @@
 #include <QStackedWidget>
 #include <QStringList>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "app/gui/calibrate/CalibrationBook.h"
@@ -14,6 +15,7 @@ namespace tacto::gui {
 
 class CalibrateWorkspace;
 class LiveWorkspace;
+class PictureTools;
 class PilotWorkspace;
 class ProtocolWorkspace;
 class ScopeWorkspace;
@@ -42,6 +44,22 @@ public:
     /// Opens a recording (a folder or its JSON), a session or a capture; emits complained() if it is none of these.
     void openFile(const QString& path);
 
+    /// The file that the present page shows: a recording, a capture or a session; empty if it comes from none.
+    [[nodiscard]] QString file() const;
+    /// True if the present page shows a picture that can be saved.
+    [[nodiscard]] bool hasPicture() const;
+    void askSavePicture();
+    /// Saves the picture as savePicture() in PlotPicture.h does. Returns errors as a sentence.
+    [[nodiscard]] std::optional<QString> savePicture(const QString& path) const;
+    /// The report of the result or session on the present page, as PDF; empty if none is written.
+    [[nodiscard]] QString report() const;
+    [[nodiscard]] bool canExport() const;
+    /// Asks where to export the present page's data: a session, the visible capture, a study, or a table.
+    void askExport();
+    /// True if a study is shown or a bench or recording is open, without a run.
+    [[nodiscard]] bool canClose() const;
+    void closeFile();
+
     [[nodiscard]] LiveWorkspace& live() const { return *live_; }
     [[nodiscard]] ScopeWorkspace& scope() const { return *scope_; }
     /// Null until the workspace is made.
@@ -65,6 +83,13 @@ private:
     [[nodiscard]] Workspace* makeOn(int page, Arguments&&... arguments);
     void addRunner(ProtocolWorkspace& runner, int page);
     void connectSessions();
+    void connectFiles();
+    void noteAsked(const QString& path);
+    /// Puts the file that was asked for at the head of the recent ones, once it is open.
+    void noteOpened(const QString& path);
+    /// The page's picture tools that can save now; null if there are none.
+    [[nodiscard]] PictureTools* pictures() const;
+    [[nodiscard]] ProtocolWorkspace* shownRunner() const;
 
     BenchController& controller_;
     CalibrationBook& calibrations_;
@@ -78,9 +103,11 @@ private:
     SessionsWorkspace* sessions_ = nullptr;
     ProtocolWorkspace* protocols_ = nullptr;
     bool plotOnly_ = false;
+    QString asked_;                // the file that was asked for last; empty once it is open
+    QString recording_, capture_;  // the files of the open bench and of the oscilloscope's capture
 };
 
-/// The files opened last, newest first; kept in the settings.
+/// The files opened last that are still there, newest first; kept in the settings.
 [[nodiscard]] QStringList recentFiles();
 
 }  // namespace tacto::gui
