@@ -132,11 +132,12 @@ std::string ageRange(int least, int most, int width) {
     return to >= kOldestShared ? fmt::format("{}+", from) : fmt::format("{}-{}", from, to);
 }
 
+constexpr int kAgeWidths[] = {10, 20, 40};  // years
+
 using AboutForm = std::function<std::string(const BidsAbout&)>;
 
 /// Returns the ways to state an age, narrow ranges first.
 std::vector<AboutForm> ageForms(const std::vector<BidsAbout>& people) {
-    constexpr int kWidths[] = {10, 20, 40};
     std::vector<AboutForm> forms;
     const auto add = [&](auto range) {
         forms.emplace_back([range](const BidsAbout& each) {
@@ -144,13 +145,13 @@ std::vector<AboutForm> ageForms(const std::vector<BidsAbout>& people) {
             return years ? range(*years) : std::string();
         });
     };
-    for (const int width : kWidths) add([width](int years) { return ageRange(years, years, width); });
+    for (const int width : kAgeWidths) add([width](int years) { return ageRange(years, years, width); });
     std::vector<int> ages;
     for (const auto& each : people)
         if (const auto years = parseWhole<int>(each.age)) ages.push_back(*years);
     if (ages.empty()) return forms;
     add([least = std::ranges::min(ages), most = std::ranges::max(ages)](int) {
-        return ageRange(least, most, kWidths[0]);
+        return ageRange(least, most, kAgeWidths[0]);
     });
     return forms;
 }

@@ -402,6 +402,10 @@ Result<void> Study::release(std::size_t event, std::string_view by, std::string_
 Result<void> Study::note(const StudyNote& note) {
     if (auto may = state_->changeable(); !may) return may;
     if (auto sound = checkNote(note); !sound) return sound;
+    for (const auto& field : (*studyLogKind(note.kind))->fields) {
+        if (field.is != StudyLogField::Is::Date) continue;
+        if (auto past = state_->notInTheFuture(field.key, note.text(field.key)); !past) return past;
+    }
     return state_->append(ledger::kNote, {{"kind", note.kind}}, &state_->keys->study(), toJson(note));
 }
 

@@ -145,6 +145,12 @@ Result<void> StudyBook::unlock(const Passphrase* passphrase) {
 
 CalibrationDate StudyBook::today() const { return utcDay(std::max(now(), known.last)); }
 
+Result<void> StudyBook::notInTheFuture(std::string_view what, std::string_view day) const {
+    const auto date = parseDate(day);
+    if (!date || *date <= today()) return {};
+    return invalid("{} is {}; a day no later than today, {}, is expected", what, day, dateText(today()));
+}
+
 Result<void> StudyBook::read() {
     const auto ledgerFile = SessionReader::open(files.ledger());
     if (!ledgerFile) return failure(ledgerFile);
@@ -332,6 +338,8 @@ Result<void> StudyBook::adverseEvent(std::string_view session, const AdverseEven
             scaleText(kEventSeverities), scaleText(kRelations), event.what, event.severity, event.relation);
     }
     if (auto fits = checkForLedger(event); !fits) return fits;
+    if (auto past = notInTheFuture("onset", event.onset); !past) return past;
+    if (auto past = notInTheFuture("ended", event.ended); !past) return past;
     return append(ledger::kAdverseEvent, {{"session", session}}, &keys->study(), toJson(event));
 }
 

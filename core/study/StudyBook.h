@@ -34,6 +34,8 @@ struct StudyBook {
     [[nodiscard]] static Result<StudyBook> open(const std::filesystem::path& folder, const Passphrase* passphrase,
                                                 Study::Access access, const Study::Surroundings& around);
 
+    /// Checks that a day in a text, if it is one, is not later than today. Errors: InvalidArgument naming `what`.
+    [[nodiscard]] Result<void> notInTheFuture(std::string_view what, std::string_view day) const;
     [[nodiscard]] std::chrono::sys_seconds now() const { return around.time->wall(); }
     /// Today in UTC, but never before the day of the ledger's last row.
     [[nodiscard]] CalibrationDate today() const;

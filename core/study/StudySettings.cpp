@@ -308,6 +308,8 @@ std::vector<ProcedureFact> approvedProcedure(const StudySettings& settings) {
     std::vector<ProcedureFact> all;
     all.push_back({"Site", std::string(nameOf(settings.site))});
     if (settings.modality == Modality::Electrodes) {
+        all.push_back({"Nerve and side",
+                       fmt::format("{}, {}", wordFor(kNerves, settings.nerve), wordFor(kLimbs, settings.limb))});
         const auto& electrode = settings.electrode;
         all.push_back({"Electrodes", fmt::format("{}, {:g} cm², {:g} mm apart", electrode.type, electrode.area.value(),
                                                  electrode.distance_mm)});

@@ -118,7 +118,7 @@ TEST_F(StudyExport, WhatStandardsAskIsNotedAndReportedAndUnknownWhereItIsNot) {
     expectRefused(desk_.run({"study", "release", study(), "1", "--by", "KL"}), 3, {"has no adverse event 1"});
     ASSERT_EQ(desk_
                   .run({"study", "adverse-event", study(), "--what", "fell", "--severity", "1", "--relation", "1",
-                        "--serious", "--onset", "2026-11-22", "--expected", "unexpected"})
+                        "--serious", "--onset", "2026-11-20", "--expected", "unexpected"})
                   .code,
               0);
     ASSERT_EQ(desk_.run({"study", "release", study(), "1", "--by", "K. Lang"}).code, 0);

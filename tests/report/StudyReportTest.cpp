@@ -120,6 +120,7 @@ TEST(StudyReport, TheCommitteesSaysWhatTheApprovalCoversAndWhatAnAmendmentChange
     study.amendments.front().changed = {"procedure.interval_max_s", "cap_ma"};
     const auto text = textOf(committeeReport(study));
     EXPECT_THAT(text, HasSubstr("EK 2026/117 A1 of 2026-11-24: longest interval, highest current"));
+    EXPECT_THAT(text, HasSubstr("Nerve and side: median, right"));
     EXPECT_THAT(text, HasSubstr("Train: biphasic, 1 pulse of 200 µs a phase"));
     EXPECT_THAT(text, HasSubstr("Intervals: 0.5 to 3 s from onset to onset"));
     EXPECT_THAT(text, HasSubstr("Detection: weighted staircase"));

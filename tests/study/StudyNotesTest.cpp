@@ -68,6 +68,8 @@ TEST_F(Desk, ANoteThatCannotBeMeantIsRefusedWithItsField) {
     refusedWith({"deviation", {}, {}}, "what of deviation is missing");
     refusedWith({"deviation", {}, {{"what", "x"}, {"name", "y"}}}, "\"name\" is no field of deviation");
     refusedWith({"deviation", {}, {{"what", "x"}, {"day", "yesterday"}}}, "day is \"yesterday\"");
+    refusedWith({"deviation", {}, {{"what", "x"}, {"day", "2026-11-24"}}}, "no later than today, 2026-11-23");
+    EXPECT_EQ(study.adverseEvent({}, {.what = "x", .onset = "2026-11-24"}).error().code, ErrorCode::InvalidArgument);
     refusedWith({"assessed", {}, {{"reason", "too old"}}}, "did not meet the criteria");
     refusedWith({"particulars", {}, {{"objectives", ""}}}, "the note says nothing");
     refusedWith({"particulars", {}, {{"objectives", std::string(2001, 'x')}}}, "has 2001 bytes");

@@ -54,6 +54,7 @@ public:
         form_ = new FieldForm(this, labels);
         form_->setMissingSaidOnceLeft();
         form_->show(fields);
+        connect(form_, &FieldForm::edited, this, [this] { clearTrouble(); });
         column_->addWidget(form_);
         return form_;
     }

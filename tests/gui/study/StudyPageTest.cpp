@@ -292,7 +292,7 @@ TEST_F(StudyPageTest, EveryKindOfNoteIsMadeInItsDialogAndTheParticularsAreShownA
             if (auto* box = asks->findChild<QComboBox*>(field.key))
                 box->setCurrentIndex(1);
             else
-                asks->findChild<QLineEdit*>(field.key)->setText(field.is == StudyLogField::Is::Date ? "2026-11-21"
+                asks->findChild<QLineEdit*>(field.key)->setText(field.is == StudyLogField::Is::Date ? "2026-11-20"
                                                                                                     : "a text");
         }
         click(*asks->findChild<QPushButton*>("noteIt"));
