@@ -123,7 +123,8 @@ TEST(Sandbox, ShowsNothingOfTheObjectBehindIt) {
                      "exposure", "fitLoad", "lift", "live", "loadSafety", "loads", "measureReference", "measureRest",
                      "measureWeight", "present", "profilometer", "readKnownLoad", "readReference",
                      "sensorCalibration", "setElectrodeArea", "setEncoding", "setReferences",
-                     "stimulatorCalibration", "time", "transitions", "useCalibration", "variation", "wait", "watch"];
+                     "stimulatorCalibration", "time", "totals", "transitions", "useCalibration", "variation",
+                     "wait", "watch"];
         if (Object.getOwnPropertyNames(bench).sort().join() !== own.join()) {
             throw Object.getOwnPropertyNames(bench).sort().join();
         }
