@@ -46,8 +46,8 @@ struct AbsoluteCheck : ReferenceCheck {
 /// What an oscilloscope states of a channel, in the channel's unit where a name has none. NaN: not stated.
 struct ChannelSeen {
     std::string name = {}, unit = {};
-    double gain_pct = kNaN, offset = kNaN, lsb = kNaN, probe_pct = kNaN, linearity = kNaN;
-    double timeBase_ppm = kNaN, stamp_s = kNaN;
+    double gain_pct = 0, offset = 0, lsb = 0, probe_pct = 0, linearity = 0;
+    double timeBase_ppm = 0, stamp_s = 0;
     std::string statedBy = {};
 };
 struct InstrumentSeen {

@@ -20,11 +20,12 @@ void ScopeSeen::add(const Capture& capture) {
     for (const auto& channel : capture.channels) {
         if (channel.unit != "V" && channel.unit != "A") continue;
         auto& seen = channels_[channel.name];
+        seen.name = channel.name;
         seen.unit = channel.unit;
-        widen(seen.gain, channel.gainTolerance);
+        widen(seen.gain_pct, 100 * channel.gainTolerance);
         widen(seen.offset, channel.offsetTolerance);
         widen(seen.lsb, channel.lsb > 0 ? channel.lsb : kNaN);
-        widen(seen.probe, channel.probeTolerance);
+        widen(seen.probe_pct, 100 * channel.probeTolerance);
         widen(seen.linearity, channel.linearityTolerance);
         if (!channel.statedBy.empty()) seen.statedBy = channel.statedBy;
     }
@@ -41,9 +42,9 @@ nlohmann::json ScopeSeen::rows(const DeviceIdentity& scope) const {
     auto out = nlohmann::json::array();
     auto instrument = instrumentOf(scope);
     for (const auto& [name, channel] : channels_) {
-        instrument.channel = {name,        channel.unit,        100 * channel.gain, channel.offset,
-                              channel.lsb, 100 * channel.probe, channel.linearity,  1e6 * timeBase_,
-                              stamp_s_,    channel.statedBy};
+        instrument.channel = channel;
+        instrument.channel->timeBase_ppm = 1e6 * timeBase_;
+        instrument.channel->stamp_s = stamp_s_;
         out.push_back(toJson(instrument));
     }
     return out;
@@ -53,7 +54,7 @@ std::vector<std::string> ScopeSeen::restsOn() const {
     std::vector<std::string> out;
     if (!absolute_.empty()) out.push_back("The absolute scale of the voltage was read: " + absolute_ + ".");
     for (const auto& [name, channel] : channels_) {
-        if (!absolute_.empty() || channel.unit != "V" || !std::isfinite(channel.gain)) continue;
+        if (!absolute_.empty() || channel.unit != "V" || !std::isfinite(channel.gain_pct)) continue;
         const auto by = channel.statedBy.empty() ? std::string("source not named") : channel.statedBy;
         out.push_back(
             channel.statedBy.find("certificate") != std::string::npos
@@ -61,7 +62,7 @@ std::vector<std::string> ScopeSeen::restsOn() const {
                 : fmt::format(
                       "No absolute reference was read: a gain error that voltage and current share does not show "
                       "in a known load, and rests on the stated tolerance of ± {:.3g} % ({}).",
-                      100 * channel.gain, by));
+                      channel.gain_pct, by));
     }
     if (!notStated_.empty()) {
         std::string text = notStated_ + ": what needs it was not evaluated.";

@@ -34,12 +34,7 @@ public:
     [[nodiscard]] std::vector<std::string> restsOn() const;
 
 private:
-    struct Channel {
-        std::string unit;
-        double gain = 0, offset = 0, lsb = 0, probe = 0, linearity = 0;
-        std::string statedBy;
-    };
-    std::map<std::string, Channel> channels_;
+    std::map<std::string, ChannelSeen> channels_;
     double timeBase_ = 0, stamp_s_ = 0;
     std::string notStated_;
     std::string absolute_;

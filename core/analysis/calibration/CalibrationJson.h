@@ -14,17 +14,10 @@
 
 namespace tacto {
 
-/// {"gain","offset","residual_max_pct_fs","repeatability_pct_fs","hysteresis_pct_fs","full_scale", ..., "levels",
-/// "readings","warnings"}
 [[nodiscard]] nlohmann::json toJson(const Calibration& found);
-/// {"rows":[{"name","distribution","value","divisor","sensitivity","contribution","degrees_of_freedom"}],
-/// "combined","degrees_of_freedom","coverage_factor","expanded_uncertainty","method"}
 [[nodiscard]] nlohmann::json toJson(const UncertaintyBudget& budget);
-/// Returns the members of toJson(Calibration), with error, expanded_uncertainty, tolerance and verdict at each level;
-/// and {"expanded_uncertainty" (at the largest command), "gain_expanded_uncertainty", "offset_expanded_uncertainty",
-/// "budget" (at the largest command), "tolerance_pct","verdict","reasons"}; each k as "..._coverage_factor".
+/// The expanded uncertainty and the budget are those at the largest command.
 [[nodiscard]] nlohmann::json toJson(const JudgedCalibration& judged);
-
 [[nodiscard]] nlohmann::json toJson(const CalibrationCheck& check);
 [[nodiscard]] nlohmann::json toJson(const KeptCalibration& kept);
 /// Returns the keys of a kept calibration.

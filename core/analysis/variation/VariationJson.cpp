@@ -233,27 +233,21 @@ ResultRecord<ServedRange> describeRange() {
 ResultRecord<ComfortReading> describeReading() {
     using R = ComfortReading;
     using V = Variation;
-    const auto of = [](const V& (*range)(const R&), auto member) {
-        return [range, member](const R& reading) {
-            const auto& value = std::invoke(member, range(reading));
-            if constexpr (std::is_same_v<decltype(value), const Estimate&>)
-                return medianOf(value);
-            else
-                return value;
-        };
+    const auto fixed = [](auto member) { return [member](const R& of) { return std::invoke(member, of.fixed); }; };
+    const auto personal = [](auto member) {
+        return [member](const R& of) { return std::invoke(member, of.personal); };
     };
-    const auto fixed = [](const R& reading) -> const V& { return reading.fixed; };
-    const auto personal = [](const R& reading) -> const V& { return reading.personal; };
+    const auto estimate = [](Estimate V::*of) { return [of](const V& found) { return medianOf(found.*of); }; };
     ResultRecord<R> all;
     all.shown(text("Too strong from", "too_strong_from"), &R::tooStrongFrom);
     all.shown(number("Median", "median_ma", "mA"), &R::median_ma);
-    all.shown(number("Fixed range serves", "fixed_served"), of(fixed, &V::served));
-    all.shown(number("It is refused to", "fixed_refused"), of(fixed, &V::refusedPeople));
-    all.shown(number("Its lowest not felt by", "fixed_not_feeling"), of(fixed, &V::unfeltPeople));
-    all.shown(number("Own range serves", "personal_served"), of(personal, &V::served));
-    all.shown(as(As::Share, "Right answers of these", "accuracy"), of(personal, &V::accuracy));
-    all.kept("presented_accuracy", of(personal, &V::presentedAccuracy));
-    all.kept("presented_fixed_accuracy", of(fixed, &V::presentedAccuracy));
+    all.shown(number("Fixed range serves", "fixed_served"), fixed(&V::served));
+    all.shown(number("It is refused to", "fixed_refused"), fixed(&V::refusedPeople));
+    all.shown(number("Its lowest not felt by", "fixed_not_feeling"), fixed(&V::unfeltPeople));
+    all.shown(number("Own range serves", "personal_served"), personal(&V::served));
+    all.shown(as(As::Share, "Right answers of these", "accuracy"), personal(estimate(&V::accuracy)));
+    all.kept("presented_accuracy", personal(estimate(&V::presentedAccuracy)));
+    all.kept("presented_fixed_accuracy", fixed(estimate(&V::presentedAccuracy)));
     return all;
 }
 

@@ -1,20 +1,5 @@
 // VariationJson.h - writes a prediction as JSON in the format of the command-line contract.
 //
-//   {"simulated": true, "measured": false, "participants", "asked", "partial", "seed", "range_v": [least, most],
-//    "served", "participants_refused", "participants_not_feeling", "participants_without_range", "complete",
-//    "conditions": [{"name", "presented", "refused", "not_felt", "counted", "draws_attention", "too_strong",
-//    "not_tolerated", "current_ma", "voltage_v", "interval_s"}],
-//    "separability": [{"a", "b", "participants", "jnd": {"value", "low", "high"}, "amplitude_jnd", "interval_jnd"}],
-//    "labels", "columns", "confusion", "accuracy": {"median", "low", "high"}, "presented_accuracy", "pooled_accuracy",
-//    "it_bits", "it_bias_bits", "it_corrected_bits", "information_bits", "clearly_separable",
-//    "clearly_separable_share", "refused", "not_felt", "withheld": [{"reason", "count"}], "accuracies",
-//    "impedance_ohm", "detection_ma", "attention_ma", "discomfort_ma", "intolerance_ma", "trials_needed": {"width",
-//    "assurance", "chance", "per_participant": {"for_width", "above_chance"}, "pooled": {"participants", "rho",
-//    "for_width": {"total", "per_participant", "design_effect", "participants_least"}, "above_chance"}, "curve":
-//    [{"trials", "width"}], "assumptions"}, "pilots": [{"people", "trials", "right_from", "all_served",
-//    "all_above_chance", "prevalence_all", "prevalence_but_one", "width"}], "premises": [{"quantity", "value",
-//    "spread", "mark", "source"}], "model": {…}, "people": {column: [a value per participant]}}
-//
 // Counts are of participants; "refused", "not_felt" and "withheld" count pairs of participant and condition. "served"
 // are participants for whom every condition is presented, felt and not too strong. Confusion, accuracy, accuracies,
 // information, trials and pilots cover these. "clearly_separable_share" is a share of all participants. "model" holds
@@ -37,8 +22,6 @@ namespace tacto {
 
 /// `options` are those of this prediction. The trials are null if no participant is served.
 [[nodiscard]] nlohmann::json toJson(const Variation& found, const VariationOptions& options);
-/// {"draws", "conditions": [{"name", "amplitude_v", "interval_s"}], "pairs": [{"a", "b", "amplitude_jnd",
-/// "interval_jnd"}]}
 [[nodiscard]] nlohmann::json toJson(const BenchVariation& found);
 
 // What a run of the protocol adds to its prediction.

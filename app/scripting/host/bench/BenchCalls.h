@@ -32,8 +32,7 @@ struct KnownLoad {
     double tolerance_pct;     ///< allowed distance of the reading from the load, including its uncertainty
     double itsTolerance_pct;  ///< tolerance of the load itself
 };
-/// Judges and records whether a known load reads correctly: { load_ohm, measured_ohm, expanded_ohm, deviation_pct,
-/// expanded_uncertainty_pct, allowed_pct, verdict, passed, reason }. `reading`: from measure.pulse(). Errors: Io.
+/// Judges and records whether a known load reads correctly. `reading`: from measure.pulse(). Errors: Io.
 [[nodiscard]] Result<Json> judgeReference(ScriptSession& session, const Json& reading, const KnownLoad& known);
 /// bench.readKnownLoad(): arms, reads one train of the strongest command, and judges the load. Output stays armed.
 [[nodiscard]] Result<Json> knownLoad(ScriptSession& session, double load_ohm, double tolerance_pct);
