@@ -327,7 +327,7 @@ std::vector<ProcedureFact> approvedProcedure(const StudySettings& settings) {
                                        fmt::join(settings.encodings, " and "), hashed, procedure->conditionsSha256)});
         all.push_back({"Detection", methodWords(procedure->method)});
         all.push_back({"Weber fraction of strength",
-                       procedure->comparison ? "measured with the thresholds, 40 trials" : "not measured"});
+                       procedure->comparison ? "measured in each session after the range, 40 trials" : "not measured"});
     } else {
         all.push_back({"Intervals, conditions, detection",
                        "not kept by this approval, so a session is not held to them; an amendment names them"});

@@ -31,6 +31,12 @@ protocol({
       choices: { quest: "QUEST+", staircase: "weighted staircase" },
       value: "quest",
     },
+    comparison: {
+      label: "Weber fraction of strength",
+      type: "choice",
+      choices: { no: "is not measured", yes: "is measured after the range, by 40 trials" },
+      value: "no",
+    },
     detection: {
       label: "Virtual: perception threshold, median",
       option: "analysis.variation.detection_ma",
@@ -70,6 +76,9 @@ function run(p) {
     verdict(pilot.results("identification"));
     return;
   }
+
+  // How much stronger must it be to be told apart? Asked where the approval has it.
+  if (p.comparison === "yes") pilot.comparison();
 
   // The four conditions with their names, then with feedback.
   pilot.familiarise();

@@ -110,6 +110,23 @@ TEST(Pilot, ComparesStrengthsWithinTheRangeWhereItIsAskedTo) {
     }
 }
 
+TEST(Pilot, AWholeSessionComparesStrengthsWhereItIsAskedTo) {
+    RecordProperty("hazard", "H6");
+    const Words one{"--set", "participant=virtual:8", "--set", "blocks=1"};
+    auto compares = one;
+    compares.insert(compares.end(), {"--set", "comparison=yes"});
+    const PilotDesk desk, other;
+    const auto ran = desk.run("pilot-identification", compares);
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const auto with = jsonOf(ran)["results"], without = jsonOf(other.run("pilot-identification", one))["results"];
+    EXPECT_EQ(with["thresholds"]["comparison"]["trials"], 40);
+    const double truth = with["truth"]["amplitude_weber"];
+    EXPECT_LT(with["thresholds"]["comparison"]["amplitude_weber"]["low"].get<double>(), truth);
+    EXPECT_GT(with["thresholds"]["comparison"]["amplitude_weber"]["high"].get<double>(), truth);
+    EXPECT_TRUE(without["thresholds"]["comparison"].is_null());
+    EXPECT_EQ(with["plan"], without["plan"]) << "the order of the test is the same";
+}
+
 /// Returns those keys that are missing in `object`.
 std::string missingIn(const json& object, std::initializer_list<const char*> keys) {
     std::string missing;

@@ -65,6 +65,15 @@ QString basisWords(const RunResult& result) {
     return result.simulated ? QObject::tr("Simulated. ") : QString();
 }
 
+/// Returns the person's Weber fraction of strength, from the results of thresholds; empty if it was not measured.
+QString weberSentence(const nlohmann::json& thresholds) {
+    const auto& weber = memberAt(thresholds, "comparison.amplitude_weber");
+    if (!std::isfinite(numberIn(weber, "value"))) return {};
+    return QObject::tr("The Weber fraction of strength is %1 (95 % interval %2 to %3)%4.")
+        .arg(decimalText(numberIn(weber, "value"), 2), decimalText(numberIn(weber, "low"), 2),
+             decimalText(numberIn(weber, "high"), 2), orBeyond(thresholds, "comparison.at_edge"));
+}
+
 /// Returns the headline of a session that measured only thresholds.
 QString thresholdSentence(const nlohmann::json& results) {
     auto who = textIn(results, "participant.code");
@@ -85,11 +94,7 @@ QString thresholdSentence(const nlohmann::json& results) {
     const auto range = rangeWords(memberAt(results, "range"));
     said +=
         range.isEmpty() ? QObject::tr("; there is no usable range.") : QObject::tr("; conditions lie") + range + '.';
-    const auto& weber = memberAt(results, "comparison.amplitude_weber");
-    if (std::isfinite(numberIn(weber, "value")))
-        said += ' ' + QObject::tr("The Weber fraction of strength is %1 (95 % interval %2 to %3)%4.")
-                          .arg(decimalText(numberIn(weber, "value"), 2), decimalText(numberIn(weber, "low"), 2),
-                               decimalText(numberIn(weber, "high"), 2), orBeyond(results, "comparison.at_edge"));
+    if (const auto weber = weberSentence(results); !weber.isEmpty()) said += ' ' + weber;
     return said;
 }
 
@@ -186,6 +191,7 @@ void PilotResult::show(const RunResult& result, const QString& folder, bool ofSt
     if (const double p = numberIn(results, "fit.p"); std::isfinite(p))
         more << tr("Predicted against answered: G = %1, p = %2.")
                     .arg(decimalText(numberIn(results, "fit.g"), 1), decimalText(p, 2));
+    if (const auto weber = weberSentence(memberAt(results, "thresholds")); !weber.isEmpty()) more << weber;
     const auto& motor = memberAt(results, "vibration.reasons");
     if (motor.is_array() && !motor.empty() && motor.front().is_string())
         more << tr("What the massager did: %1").arg(qtext(motor.front().get<std::string>()));
