@@ -1,6 +1,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "app/cli/Command.h"
 #include "app/cli/TextTable.h"
@@ -152,8 +153,8 @@ void printFigures(const Identification& found, const std::string& name, const Ba
     TextTable table({"", ""});
     table.add({"rests on", basisText(basis)});
     table.add({"by chance", fmt::format("p = {:.2g} (exact, one-sided)", all.pChance)});
-    table.add({"information", fmt::format("{} bit without what chance adds, 95 % interval; {:.2f} bit as counted",
-                                          bitsText(all.itCorrected_bits), all.it_bits)});
+    table.add(
+        {"information", fmt::format("{} bit without what chance adds, 95 % interval", bitsText(all.itCorrected_bits))});
     for (const auto& [title, feature] : {std::pair{"texture", &found.texture}, {"pressure", &found.pressure}}) {
         if (!*feature) continue;
         const auto& figures = (*feature)->figures;
@@ -168,6 +169,28 @@ void printFigures(const Identification& found, const std::string& name, const Ba
     table.print();
 }
 
+/// Returns the person's results with each encoding. A session that cannot be analysed by itself is left out: the table
+/// as a whole was analysed.
+PersonEncodings encodingsOf(const ParticipantTrials& person) {
+    std::vector<Identification> found;
+    found.reserve(person.sessions.size());
+    std::vector<EncodedSession> sessions;
+    for (const auto& each : person.sessions) {
+        auto one = identifyAsMet(each.trials);
+        if (!one) continue;
+        found.push_back(std::move(*one));
+        EncodedSession session{each.encoding, &found.back()};
+        std::set<std::size_t> training;
+        for (const auto& trial : each.trials) {
+            if (trial.phase == TrialPhase::Training) training.insert(trial.block);
+            if (trial.phase == TrialPhase::Test && std::isfinite(trial.rt_s)) session.response_s.push_back(trial.rt_s);
+        }
+        session.trainingBlocks = training.size();
+        sessions.push_back(std::move(session));
+    }
+    return {person.participant, encodingResults(sessions)};
+}
+
 /// Each person's trials name the labels that were offered as answers. Nothing is judged, and several people are not
 /// pooled (pilot.md section 7). If there are several, a person whose trials cannot be analysed is named and left out.
 int identification(const std::string& file, const std::string& stated, bool asJson) {
@@ -179,15 +202,30 @@ int identification(const std::string& file, const std::string& stated, bool asJs
     std::vector<PersonResult> people;
     std::vector<Identification> each;
     std::vector<PersonLeftOut> leftOut;
+    std::vector<PersonEncodings> encodings;
     for (const auto& person : *read) {
-        auto found = identifyAsMet(person.trials);
+        auto found = identifyAsMet(person.trials());
         if (!found) {
             leftOut.push_back({person.participant, found.error().message});
             continue;
         }
         people.push_back({.name = person.participant, .usable = true, .figures = found->all});
         each.push_back(std::move(*found));
+        encodings.push_back(encodingsOf(person));
     }
+    auto compared = compareEncodingsOver(std::move(encodings));
+    compared.who = whoOf(*basis);
+    // Adds which encoding is better, if anybody had two.
+    const auto finish = [&](nlohmann::json result) {
+        result["kind"] = "identification";
+        result["basis"] = basisJson;
+        if (!compared.pairs.empty()) result.update(toJson(compared));
+        printJson(result);
+    };
+    const auto sayEncodings = [&] {
+        for (const auto& sentence : encodingSentences(compared)) say("  {}\n", sentence);
+        if (const auto set = assignmentSentence(compared); !set.empty()) say("  {}\n", set);
+    };
     if (each.empty() && !leftOut.empty()) {
         const auto why = leftOut.size() == 1 ? leftOut.front().reason
                                              : fmt::format("no participant can be analysed. {}", leftOutText(leftOut));
@@ -195,13 +233,11 @@ int identification(const std::string& file, const std::string& stated, bool asJs
     }
     if (read->size() == 1) {
         const auto name = people.front().name.empty() ? file : people.front().name;
-        auto result = toJson(each.front());
-        result["kind"] = "identification";
-        result["basis"] = basisJson;
         if (asJson) {
-            printJson(result);
+            finish(toJson(each.front()));
         } else {
             printFigures(each.front(), name, *basis);
+            sayEncodings();
         }
         return kDone;
     }
@@ -209,14 +245,13 @@ int identification(const std::string& file, const std::string& stated, bool asJs
     together.who = whoOf(*basis);
     if (asJson) {
         auto result = toJson(together);
-        result["kind"] = "identification";
-        result["basis"] = basisJson;
         for (std::size_t i = 0; i < each.size(); ++i) result["people"][i].update(toJson(each[i]));
-        printJson(result);
+        finish(std::move(result));
         return kDone;
     }
     for (std::size_t i = 0; i < each.size(); ++i) printFigures(each[i], people[i].name, *basis);
     say("\n  {}\n", fewPeopleSentence(together));
+    sayEncodings();
     if (!*basis) say("  On whom this rests is {}.\n", basisText(*basis));
     return kDone;
 }

@@ -67,7 +67,8 @@ extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, 
 // The usage text of the program tactoscope-report, for the help of tactoscope-cli.
 extern const Command kReport;
 inline constexpr const char* kReportArguments =
-    "{SESSION|STUDY} --out report.pdf [--participant CODE | --for READER] [--noted] [--passphrase-file F]";
+    "{SESSION|STUDY} {--out report.pdf [--participant CODE | --for READER] | --figures DIR} [--noted] "
+    "[--passphrase-file F]";
 inline constexpr const char* kReportSummary = "The report of a session or of a study, as PDF or HTML";
 
 }  // namespace tacto::cli

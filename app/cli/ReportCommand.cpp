@@ -3,6 +3,7 @@
 
 #include "app/cli/Command.h"
 #include "app/cli/StudyPassphrase.h"
+#include "app/report/PilotFigures.h"
 #include "app/report/Report.h"
 #include "app/report/StudyReport.h"
 #include "core/study/StudyFiles.h"
@@ -14,6 +15,8 @@ namespace {
 void declareReport(QCommandLineParser& parser) {
     parser.addOptions(
         {{"out", "The report to write; its ending says which kind: .pdf or .html.", "report.pdf"},
+         {"figures", "For a study: each figure as an SVG file in this new or empty folder, in place of a report.",
+          "DIR"},
          {"participant", "For a study: one page in plain words for the participant with that code.", "CODE"},
          {"for", "For a study: study (the default; names codes) or committee (names none).", "READER"},
          {"noted", "For a study: the program that has it open noted the report in its ledger."}});
@@ -28,6 +31,7 @@ Result<ReportContent> contentFor(const QCommandLineParser& parser, const StudyRe
 
 /// Returns the ledger's name for a report that names participants; null for the committee's report, which names none.
 const char* namedReport(const QCommandLineParser& parser) {
+    if (parser.isSet("figures")) return "figures";
     if (parser.isSet("participant")) return "participant report";
     return parser.value("for") == "committee" ? nullptr : "study report";
 }
@@ -53,7 +57,12 @@ int reportStudy(const QCommandLineParser& parser, const std::string& folder) {
         return usage(fmt::format("report: --for is \"{}\"; study or committee is accepted", reader));
     if (!reader.empty() && parser.isSet("participant"))
         return usage("report: --for and --participant name two reports; one of them is accepted");
-    const auto out = parser.value("out").toStdString();
+    const bool figures = parser.isSet("figures");
+    if (figures && (parser.isSet("out") || parser.isSet("participant") || !reader.empty()))
+        return usage(
+            "report: --figures writes figures in place of a report; no --out, --for or --participant is "
+            "accepted beside it");
+    const auto out = parser.value(figures ? "figures" : "out").toStdString();
     if (liesInside(out, folder)) {
         return couldNotRun(Error{ErrorCode::InvalidArgument,
                                  fmt::format("{} lies inside the study folder; a report there would stand unsealed "
@@ -64,7 +73,10 @@ int reportStudy(const QCommandLineParser& parser, const std::string& folder) {
     const bool notes = what != nullptr && !parser.isSet("noted");
     const auto place = std::filesystem::absolute(out);
     std::error_code error;
-    if (notes && !std::filesystem::is_directory(place.parent_path(), error)) {
+    if (figures) {
+        if (const auto free = checkBidsFolder(place); !free) return couldNotRun(free.error());
+    }
+    if (notes && !figures && !std::filesystem::is_directory(place.parent_path(), error)) {
         return couldNotRun(Error{ErrorCode::NotFound, fmt::format("{} is not a folder that a report can be written to",
                                                                   place.parent_path().string())});
     }
@@ -76,13 +88,16 @@ int reportStudy(const QCommandLineParser& parser, const std::string& folder) {
     }
     const auto record = readStudyRecord(*study);
     if (!record) return couldNotRun(record.error());
-    const auto content = contentFor(parser, *record);
+    const auto drawn = figures ? pilotFigures(*record) : Result<std::vector<PilotFigure>>();
+    if (!drawn) return couldNotRun(drawn.error());
+    const auto content = figures ? Result<ReportContent>() : contentFor(parser, *record);
     if (!content) return couldNotRun(content.error());
     if (notes) {
         const auto noted = study->exported(place, what);
         if (!noted) return couldNotRun(noted.error());
     }
-    if (const auto written = writeContent(*content, parser.value("out")); !written) return couldNotRun(written.error());
+    const auto written = figures ? writeFigures(*drawn, place) : writeContent(*content, parser.value("out"));
+    if (!written) return couldNotRun(written.error());
     say("{}\n", out);
     return kDone;
 }
@@ -90,9 +105,13 @@ int reportStudy(const QCommandLineParser& parser, const std::string& folder) {
 int runReport(const QCommandLineParser& parser) {
     const auto session = onlyArgument(parser, "SESSION");
     if (!session) return usage(fmt::format("report: {}", session.error().message));
-    if (!parser.isSet("out")) return usage("report: --out is missing");
-    const auto format = reportFormat(parser.value("out"));
-    if (!format) return usage("report: " + format.error().message);
+    if (parser.isSet("figures") && !Study::isThere(*session))
+        return usage("report: --figures is for a study; " + *session + " is none");
+    if (!parser.isSet("figures")) {
+        if (!parser.isSet("out")) return usage("report: --out is missing");
+        const auto format = reportFormat(parser.value("out"));
+        if (!format) return usage("report: " + format.error().message);
+    }
     if (Study::isThere(*session)) return reportStudy(parser, *session);
     const auto made = writeSessionReport(QString::fromStdString(*session), parser.value("out"));
     if (!made) {

@@ -5,11 +5,13 @@
 #include "app/cli/Command.h"
 #include "app/cli/StudyOptions.h"
 #include "app/cli/StudyPassphrase.h"
+#include "app/cli/Verdicts.h"
 #include "app/run/PilotRows.h"
 #include "app/run/StudyWords.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/base/LocaleFreeText.h"
 #include "core/pilot/PilotRecord.h"
+#include "core/sharing/results/StudyFigures.h"
 #include "core/study/Study.h"
 
 namespace tacto::cli {
@@ -238,13 +240,14 @@ int trials(Study& study, const QCommandLineParser& parser, const QStringList& wo
     if (parser.isSet("json")) {
         printJson({{"code", participant->code},
                    {"session", session->number},
+                   {"encoding", session->encoding},
                    {"plan", found.plan},
                    {"trials", std::move(answered)},
                    {"open", std::move(open)}});
         return kDone;
     }
-    say("Session {} of {}: {} of {} trials answered\n", session->number, participant->code, found.trials.size(),
-        found.plan.size());
+    say("Session {} of {}, encoding {}: {} of {} trials answered\n", session->number, participant->code,
+        session->encoding, found.trials.size(), found.plan.size());
     for (const auto& trial : found.trials)
         say("  {:3} {:15} block {} {:12} {}\n", trial.number, nameOf(trial.phase), trial.block, trial.condition,
             trial.response);
@@ -289,6 +292,26 @@ int readWords(Study& study, const QCommandLineParser& parser, const QStringList&
     return kDone;
 }
 
+/// Prints each session with its encoding, and which encoding is better; each kind of participants for itself.
+int results(Study& study, const QCommandLineParser& parser, const QStringList&) {
+    const auto record = readStudyRecord(study);
+    if (!record) return couldNotRun(record.error());
+    auto all = Json::array();
+    for (const auto& [basis, part] : byBasis(*record)) {
+        const auto found = studyFigures(basis, part);
+        if (!found) return couldNotRun(found.error());
+        auto one = toJson(*found);
+        one["basis"] = nameOf(basis);
+        if (!parser.isSet("json")) {
+            say("{}\n", peopleOf(basis));
+            printTables("study-results", one);
+        }
+        all.push_back(std::move(one));
+    }
+    if (parser.isSet("json")) printJson({{"parts", std::move(all)}});
+    return kDone;
+}
+
 struct StudyWord {
     const char* name;
     int least, most;    ///< number of words, including the command's own
@@ -329,6 +352,7 @@ const std::vector<StudyWord>& studyWords() {
          {"passphrase-file", "json"},
          false,
          [](Study& study, const QCommandLineParser& parser, const QStringList&) { return show(study, parser); }},
+        {"results", 2, 2, "STUDY", {"passphrase-file", "json"}, false, results},
         {"trials", 3, 3, "STUDY and CODE", {"session", "passphrase-file", "json"}, false, trials},
         {"words", 2, 3, "STUDY and LANGUAGE", {"passphrase-file", "json"}, false, readWords},
         {"leave", 3, 3, "STUDY and CODE", {"reason", "passphrase-file", "json"}, true, leave},
@@ -394,8 +418,8 @@ const Command kStudy{
     "[--set KEY=VALUE]... [--profile FILE] | "
     "enrol STUDY [CODE] [--virtual SEED] [--group GROUP] [--age YEARS] [--sex SEX] [--handedness HAND] | "
     "consent STUDY CODE --version V --date DATE --by INITIALS | show STUDY | "
-    "trials STUDY CODE [--session N] | words STUDY [LANGUAGE] | leave STUDY CODE [--reason T] | withdraw STUDY CODE "
-    "--confirm CODE | "
+    "results STUDY | trials STUDY CODE [--session N] | words STUDY [LANGUAGE] | leave STUDY CODE [--reason T] | "
+    "withdraw STUDY CODE --confirm CODE | "
     "go-back STUDY [--confirm WORD] | "
     "adverse-event STUDY [SESSION] --what TEXT --severity 1..4 --relation 1..5 [--serious] [--expected WORD] "
     "[--onset DATE] [--ended DATE] [--action T] [--outcome T] [--reported] | release STUDY EVENT --by NAME [--reason "

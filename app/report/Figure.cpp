@@ -316,14 +316,16 @@ TransitionsFigure readTransitions(Reader& in) {
 
 CurvesFigure readCurves(Reader& in) {
     CurvesFigure figure;
-    in.object("x", [&](Reader& axis) { figure.x = {axis.text("label"), axis.text("unit")}; });
-    in.object("y", [&](Reader& axis) { figure.y = {axis.text("label"), axis.text("unit")}; });
+    in.object("x", [&](Reader& axis) { figure.x = {axis.text("label"), axis.text("unit"), axis.texts("names")}; });
+    in.object("y", [&](Reader& axis) { figure.y = {axis.text("label"), axis.text("unit"), axis.texts("names")}; });
     in.objects("curves", true, [&](Reader& item) {
         CurvesFigure::Curve curve{item.text("label"),  item.numbers("x"),    item.numbers("y"),
-                                  item.numbers("low"), item.numbers("high"), item.flag("steps")};
+                                  item.numbers("low"), item.numbers("high"), item.flag("steps"),
+                                  item.flag("points"), item.flag("open"),    item.numbers("n")};
         if (curve.y.size() != curve.x.size()) item.complain("y", "as long as \"x\"");
         if (!curve.low.empty() && curve.low.size() != curve.x.size()) item.complain("low", "as long as \"x\"");
         if (curve.high.size() != curve.low.size()) item.complain("high", "as long as \"low\"");
+        if (!curve.n.empty() && curve.n.size() != curve.x.size()) item.complain("n", "as long as \"x\"");
         figure.curves.push_back(std::move(curve));
     });
     in.objects("lines", false, [&](Reader& item) { figure.lines.push_back({item.text("label"), item.number("y")}); });

@@ -63,12 +63,16 @@
 //    "largest_interval": {..}}
 //
 //   {"type": "curves",                          curves over one pair of axes, from plot.curves() and predictions
-//    "x": {"label": "Trials", "unit": ""},
+//    "x": {"label": "Trials", "unit": "",
+//          "names": ["1", "2"]},               optional: texts in place of the numbers 1, 2, ...
 //    "y": {"label": "Width", "unit": "%"},
 //    "curves": [{"label": "one participant",
 //                "x": [8, 16, ..], "y": [..],   equally long; null = a gap
-//                "low": [..], "high": [..],     optional, drawn as a band
-//                "steps": true}],               optional: holds its value until the next point
+//                "low": [..], "high": [..],     optional, drawn as a band, or as bars of points
+//                "steps": true,                 optional: holds its value until the next point
+//                "points": true,                optional: points without a line
+//                "open": true,                  optional: points that are not filled
+//                "n": [..]}],                   optional: trials of each point; more of them are a larger point
 //    "lines": [{"label": "wanted", "y": 10}]}   optional, level
 //
 // Every type takes an optional "note": one sentence printed below the caption.
@@ -225,13 +229,17 @@ struct TransitionsFigure {
 
 struct CurvesFigure {
     struct Axis {
-        QString label;
-        QString unit;
+        QString label = {};
+        QString unit = {};
+        QStringList names = {};  ///< texts at 1, 2, ...; empty: numbers
     };
     struct Curve {
-        QString label;
-        std::vector<double> x, y, low, high;  ///< as long as x, low and high may be empty
+        QString label = {};
+        std::vector<double> x = {}, y = {}, low = {}, high = {};  ///< as long as x, low and high may be empty
         bool steps = false;
+        bool points = false;         ///< points without a line; low and high are bars
+        bool open = false;           ///< points that are not filled
+        std::vector<double> n = {};  ///< trials of each point; empty: points of one size
     };
     struct Line {
         QString label;

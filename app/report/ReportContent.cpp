@@ -158,6 +158,8 @@ void addUsed(const ReportModel& model, Captions& captions, std::vector<ReportBlo
     blocks.emplace_back(std::move(facts));
 }
 
+}  // namespace
+
 TableBlock tableOf(const ResultTable& source, const nlohmann::json& records, const QString& caption) {
     TableBlock table;
     table.caption = caption;
@@ -182,6 +184,8 @@ TableBlock tableOf(const ResultTable& source, const nlohmann::json& records, con
     }
     return table;
 }
+
+namespace {
 
 /// Lists the facts below each other, without those missing in the record.
 TableBlock factsOf(const ResultTable& source, const nlohmann::json& record, const QString& caption) {

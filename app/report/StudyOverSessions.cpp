@@ -17,30 +17,11 @@ namespace tacto {
 
 namespace {
 
-double highestOf(const BidsSession& felt, bool massager) { return massager ? felt.highIntensity : felt.high.value(); }
-
 QString withInterval(const Estimate& estimate, int decimals) {
     if (!std::isfinite(estimate.value)) return "–";
     const auto value = figureText(estimate.value, decimals);
     if (!std::isfinite(estimate.low) || !std::isfinite(estimate.high)) return value;
     return QString("%1 (%2 to %3)").arg(value, figureText(estimate.low, decimals), figureText(estimate.high, decimals));
-}
-
-std::vector<SessionFigures> figuresOf(const std::vector<AnalysedSession>& sessions, bool massager) {
-    std::vector<SessionFigures> figures;
-    for (const auto& one : sessions) {
-        const auto& felt = one.session->results;
-        figures.push_back({.number = felt.number,
-                           .days = felt.days,
-                           .detection = {felt.detection, felt.detectionLow, felt.detectionHigh},
-                           .tooStrong = felt.saidTooStrong ? felt.tooStrong : kNaN,
-                           .high = highestOf(felt, massager),
-                           .impedance = felt.impedance,
-                           .n = one.found.all.n,
-                           .hits = one.found.all.hits,
-                           .itCorrected_bits = one.found.all.itCorrected_bits});
-    }
-    return figures;
 }
 
 /// Returns "12.0", or "> 12.0" if the highest level presented was not called too strong.
@@ -57,6 +38,7 @@ TableBlock valuesTable(const OverSessions& compared, const std::vector<AnalysedS
     if (!massager) table.columns.push_back({"|Z| (Ω)", true});
     table.columns.push_back({"Right", true});
     table.columns.push_back({"Information, corrected, 95 % (bit)", true});
+    table.columns.push_back({"Encoding"});
     const int digits = massager ? 2 : 1;
     for (std::size_t i = 0; i < compared.sessions.size(); ++i) {
         const auto& each = compared.sessions[i];
@@ -69,7 +51,8 @@ TableBlock valuesTable(const OverSessions& compared, const std::vector<AnalysedS
                               tooStrongText(felt, digits), range});
         if (!massager) table.rows.back() << figureText(each.impedance.value(), 0);
         table.rows.back() << (each.n == 0 ? QString("–") : QString("%1 of %2").arg(each.hits).arg(each.n))
-                          << qtext(bitsText(each.itCorrected_bits));
+                          << qtext(bitsText(each.itCorrected_bits))
+                          << (felt.encoding.empty() ? QString("–") : qtext(felt.encoding));
     }
     return table;
 }
@@ -125,22 +108,10 @@ TableBlock ratingsTable(const std::vector<AnalysedSession>& sessions) {
 
 }  // namespace
 
-double naturalnessOf(const BidsSession& session) {
-    constexpr std::string_view kWords[] = {"totally-unnatural", "rather-unnatural", "possibly-natural",
-                                           "almost-natural", "totally-natural"};
-    std::vector<double> scores;
-    for (const auto& rating : session.ratings) {
-        const auto word = std::ranges::find(kWords, rating.value);
-        if (rating.item == "naturalness" && word != std::end(kWords))
-            scores.push_back(static_cast<double>(word - std::begin(kWords) + 1));
-    }
-    return statisticsOf(scores).mean;
-}
-
 Result<void> addOverSessions(std::vector<ReportBlock>& blocks, Captions& captions, const std::string& name,
                              const std::vector<AnalysedSession>& sessions, bool massager) {
     if (sessions.size() < 2) return {};
-    const auto compared = compareSessions(figuresOf(sessions, massager));
+    const auto compared = compareSessions(sessionFiguresOf(sessions, name, massager));
     if (!compared) return failure(compared);
     const auto who = QString::fromStdString(name);
     const auto add = [&](TableBlock table, const QString& caption) {

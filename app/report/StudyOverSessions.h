@@ -6,19 +6,9 @@
 #include <vector>
 
 #include "app/report/ReportContent.h"
-#include "core/analysis/identification/Identification.h"
-#include "core/sharing/results/StudyResults.h"
+#include "core/sharing/results/StudyFigures.h"
 
 namespace tacto {
-
-/// A session with its results.
-struct AnalysedSession {
-    const SessionRecord* session = nullptr;
-    Identification found;
-};
-
-/// Returns the mean over the conditions, from 5 (totally natural) to 1 (totally unnatural); NaN without ratings.
-[[nodiscard]] double naturalnessOf(const BidsSession& session);
 
 /// Compares all sessions, even those without test trials. Adds nothing for fewer than two. `massager`: levels are
 /// strengths. Errors: as compareSessions().

@@ -2,25 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "app/report/FigureDrawing.h"
+#include "app/report/PilotFigures.h"
 #include "app/report/StudyOverSessions.h"
 #include "app/report/StudyText.h"
 #include "core/analysis/identification/IdentificationText.h"
-#include "core/analysis/identification/OverSessions.h"
 #include "core/analysis/vibration/VibrationSeparability.h"
 #include "core/base/Statistics.h"
 
 namespace tacto {
 
 namespace {
-
-std::vector<IdentificationTrial> trialsOf(const BidsSession& session) {
-    std::vector<IdentificationTrial> trials;
-    for (const auto& row : session.trials) trials.push_back(row.trial);
-    return trials;
-}
 
 PresentedRange rangeOf(const BidsSession& session) {
     PresentedRange range;
@@ -36,14 +29,6 @@ PresentedRange rangeOf(const BidsSession& session) {
         range.highIntensity = session.highIntensity;
     }
     return range;
-}
-
-double medianResponse_s(const BidsSession& session) {
-    std::vector<double> times;
-    for (const auto& row : session.trials) {
-        if (row.trial.phase == TrialPhase::Test && std::isfinite(row.trial.rt_s)) times.push_back(row.trial.rt_s);
-    }
-    return statisticsOf(times).median;
 }
 
 void addConfusion(std::vector<ReportBlock>& blocks, Captions& captions, const AnalysedSession& one,
@@ -75,8 +60,8 @@ void addFacts(std::vector<ReportBlock>& blocks, const AnalysedSession& one) {
         {"By chance", QString("p %1, exact and one-sided against %2 %")
                           .arg(chance.startsWith('<') ? chance : "= " + chance)
                           .arg(100 * found.all.chance, 0, 'f', 0)},
-        {"Information", QString("%1 bit without what chance adds, 95 % interval; %2 bit as counted")
-                            .arg(qtext(bitsText(found.all.itCorrected_bits)), figureText(found.all.it_bits, 2))}};
+        {"Information",
+         QString("%1 bit without what chance adds, 95 % interval").arg(qtext(bitsText(found.all.itCorrected_bits)))}};
     for (const auto& [name, feature] :
          {std::pair{"Texture alone", &found.texture}, {"Pressure alone", &found.pressure}}) {
         if (!*feature) continue;
@@ -124,47 +109,6 @@ void addRatings(std::vector<ReportBlock>& blocks, Captions& captions, const Bids
     blocks.emplace_back(std::move(table));
 }
 
-void addEncodings(std::vector<ReportBlock>& blocks, Captions& captions, const std::string& name,
-                  const std::vector<AnalysedSession>& sessions) {
-    std::vector<EncodingResult> results;
-    std::set<std::string> met;
-    for (const auto& one : sessions) {
-        const auto& encoding = one.session->results.encoding;
-        if (!met.insert(encoding).second) continue;  // the first session with each encoding
-        std::set<std::size_t> training;
-        for (const auto& row : one.session->results.trials) {
-            if (row.trial.phase == TrialPhase::Training) training.insert(row.trial.block);
-        }
-        results.push_back({.encoding = encoding,
-                           .n = one.found.all.n,
-                           .hits = one.found.all.hits,
-                           .trainingBlocks = training.size(),
-                           .medianResponse_s = medianResponse_s(one.session->results),
-                           .naturalness = naturalnessOf(one.session->results)});
-    }
-    if (results.size() < 2) return;
-    const auto compared = compareEncodings(std::move(results));
-    TableBlock table;
-    table.caption = captions.table(qtext(name) + ": encodings, in the order in which the person had them");
-    table.columns = {{"Encoding"},
-                     {"Right", true},
-                     {"Trials", true},
-                     {"Training blocks", true},
-                     {"Median response (s)", true},
-                     {"Naturalness, 1 to 5", true}};
-    for (const auto& each : compared.encodings) {
-        table.rows.push_back({qtext(each.encoding), QString::number(each.hits), QString::number(each.n),
-                              QString::number(each.trainingBlocks), figureText(each.medianResponse_s, 2),
-                              figureText(each.naturalness, 1)});
-    }
-    blocks.emplace_back(std::move(table));
-    for (const auto& pair : compared.pairs) {
-        blocks.emplace_back(
-            ParagraphBlock{QString("%1 minus %2: %3 percentage points (Newcombe).")
-                               .arg(qtext(pair.a), qtext(pair.b), shareText(pair.difference).remove(" %"))});
-    }
-}
-
 /// Returns a sentence for each session in which the usable range was too small for the test.
 QStringList unusableRanges(const ParticipantRecord& participant) {
     QStringList said;
@@ -190,11 +134,9 @@ double amplitudeWeberOf(const ParticipantRecord& participant) {
 
 Result<StudyPerson> StudyPerson::analysed(const ParticipantRecord& participant) {
     StudyPerson made(participant);
-    for (const auto& session : participant.sessions) {
-        auto found = identify(trialsOf(session.results), session.results.labels);
-        if (!found) return failure(found);
-        made.sessions_.push_back({&session, std::move(*found)});
-    }
+    auto sessions = analysedSessions(participant);
+    if (!sessions) return failure(sessions);
+    made.sessions_ = std::move(*sessions);
     return made;
 }
 
@@ -211,39 +153,46 @@ PersonResult StudyPerson::result() const {
         person.usable = hasUsableRange(participant_->sessions.back().results);
     else
         person.figures = sessions.front().found.all;
+    if (!sessions.empty()) person.encoding = sessions.front().session->results.encoding;
     return person;
 }
+
+PersonEncodings StudyPerson::encodings() const { return personEncodings(sessions_, name()); }
 
 void StudyPerson::addHeadlines(std::vector<ReportBlock>& blocks) const {
     for (const auto& one : tested())
         blocks.emplace_back(ParagraphBlock{qtext(headline(name(), one.found, rangeOf(one.session->results)))});
 }
 
-Result<void> StudyPerson::add(std::vector<ReportBlock>& blocks, Captions& captions, Modality modality,
-                              bool simulated) const {
+Result<void> StudyPerson::add(std::vector<ReportBlock>& blocks, Captions& captions, Modality modality) const {
     const bool massager = modality == Modality::Massager;
-    const auto sessions = tested();
     const auto unusable = unusableRanges(*participant_);
-    if (sessions.empty() && unusable.empty() && participant_->sessions.size() < 2) return {};
+    const auto figures = personFigures(*this, massager);
+    if (figures.empty() && unusable.empty()) return {};
     blocks.emplace_back(captions.heading(qtext(name())));
     for (const auto& sentence : unusable) blocks.emplace_back(ParagraphBlock{sentence});
-    for (const auto& one : sessions) {
-        if (auto added = addSession(blocks, captions, one, massager, simulated); !added) return added;
+    for (const auto& one : sessions_) {
+        if (one.found.all.n > 0) {
+            if (auto added = addSession(blocks, captions, one, massager); !added) return added;
+        }
+        const auto ofSession = sessionFigures(*this, one, massager);
+        if (!ofSession) return failure(ofSession);
+        addFigures(blocks, captions, *ofSession);
     }
-    addEncodings(blocks, captions, name(), sessions);
     if (const auto preferred = preferenceText(*participant_); !preferred.isEmpty())
         blocks.emplace_back(ParagraphBlock{preferred});
+    addFigures(blocks, captions, figures);
     return addOverSessions(blocks, captions, name(), sessions_, massager);
 }
 
 Result<void> StudyPerson::addSession(std::vector<ReportBlock>& blocks, Captions& captions, const AnalysedSession& one,
-                                     bool massager, bool simulated) const {
+                                     bool massager) const {
     const auto& results = one.session->results;
     const auto caption = [&](const QString& what) {
         return QString("%1, session %2%3").arg(qtext(name())).arg(results.number).arg(what);
     };
     addConfusion(blocks, captions, one,
-                 caption(QString(", encoding %1: presented and answered").arg(qtext(results.encoding))), simulated);
+                 caption(QString(", encoding %1: presented and answered").arg(qtext(results.encoding))), simulated());
     addFacts(blocks, one);
     const auto predicted = caption(": predicted from the detection threshold, and answered");
     if (auto added = addPredicted(blocks, captions, predicted, one, amplitudeWeberOf(*participant_), massager); !added)

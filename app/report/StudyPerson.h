@@ -21,22 +21,28 @@ public:
     /// `participant` must outlive the object. Errors: as identify().
     [[nodiscard]] static Result<StudyPerson> analysed(const ParticipantRecord& participant);
 
+    /// All sessions, in order.
+    [[nodiscard]] const std::vector<AnalysedSession>& sessions() const noexcept { return sessions_; }
     /// Returns the sessions with test trials, in order.
     [[nodiscard]] std::vector<AnalysedSession> tested() const;
     /// Returns the results of the first tested session; without one, whether the last session had a usable range.
     [[nodiscard]] PersonResult result() const;
+    /// Returns the results with each encoding, all sessions together.
+    [[nodiscard]] PersonEncodings encodings() const;
+    [[nodiscard]] const std::string& code() const noexcept { return participant_->about.code; }
+    [[nodiscard]] SessionBasis basis() const noexcept { return participant_->basis; }
+    [[nodiscard]] bool simulated() const noexcept { return isSimulatedBasis(participant_->basis); }
+    /// Returns the name, with the basis of the results unless it is a person with real devices.
+    [[nodiscard]] std::string name() const { return namedWith(participant_->basis, participant_->about.code); }
 
     void addHeadlines(std::vector<ReportBlock>& blocks) const;
     /// Adds nothing for a person without sessions. Errors: as addPredicted(), addVibration(), addOverSessions().
-    [[nodiscard]] Result<void> add(std::vector<ReportBlock>& blocks, Captions& captions, Modality modality,
-                                   bool simulated) const;
+    [[nodiscard]] Result<void> add(std::vector<ReportBlock>& blocks, Captions& captions, Modality modality) const;
 
 private:
     explicit StudyPerson(const ParticipantRecord& participant) : participant_(&participant) {}
     [[nodiscard]] Result<void> addSession(std::vector<ReportBlock>& blocks, Captions& captions,
-                                          const AnalysedSession& one, bool massager, bool simulated) const;
-    /// Returns the name, with the basis of the results unless it is a person with real devices.
-    [[nodiscard]] std::string name() const { return namedWith(participant_->basis, participant_->about.code); }
+                                          const AnalysedSession& one, bool massager) const;
 
     const ParticipantRecord* participant_;
     std::vector<AnalysedSession> sessions_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "app/report/PilotFigures.h"
 #include "app/report/ReportContent.h"
 #include "app/report/StudyFlow.h"
 #include "app/report/StudyOverSessions.h"
@@ -10,7 +11,10 @@
 #include "app/report/StudyText.h"
 #include "app/report/TableContent.h"
 #include "core/analysis/identification/FewPeople.h"
+#include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/identification/IdentificationText.h"
+#include "core/kinds/ResultKinds.h"
+#include "core/sharing/results/StudyFigures.h"
 
 namespace tacto {
 
@@ -95,12 +99,14 @@ void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, SessionBa
     table.caption = captions.table("Each participant's first session with test trials, else the last");
     table.columns = {{"Participant"},          {"Usable range"},      {"Right", true},
                      {"Accuracy, 95 %", true}, {"p by chance", true}, {"Information, corrected, 95 % (bit)", true}};
+    table.columns.push_back({"Encoding"});
     for (const auto& person : together.people) {
         const auto& figures = person.figures;
         table.rows.push_back({qtext(person.name), person.usable ? "yes" : "no",
                               QString("%1 of %2").arg(figures.hits).arg(figures.n), shareText(figures.accuracy),
                               qtext(chanceText(figures.n > 0 ? figures.pChance : kNaN)),
-                              qtext(bitsText(figures.itCorrected_bits))});
+                              qtext(bitsText(figures.itCorrected_bits)),
+                              person.encoding.empty() ? QString("–") : qtext(person.encoding)});
     }
     blocks.emplace_back(std::move(table));
     blocks.emplace_back(ParagraphBlock{QString("Median accuracy %1 %, from %2 to %3 %.")
@@ -110,6 +116,24 @@ void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, SessionBa
     blocks.emplace_back(ParagraphBlock{qtext(fewPeopleSentence(together))});
     blocks.emplace_back(ParagraphBlock{
         "Answers of different people are not pooled: no proportion, p or interval is given over all trials.", true});
+}
+
+/// Adds each session in a row, and which encoding is better if anybody had two.
+Result<void> addStudyFigures(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasis basis,
+                             const StudyRecord& study) {
+    const auto found = studyFigures(basis, study);
+    if (!found) return failure(found);
+    const auto results = toJson(*found);
+    for (const auto& table : resultTraits("study-results").tables) {
+        if (table.at != "sessions" && found->encodings.pairs.empty()) continue;
+        if (table.shape == ResultTable::Shape::Sentences) {
+            for (const auto& sentence : results[table.at])
+                blocks.emplace_back(ParagraphBlock{qtext(sentence.get<std::string>())});
+        } else if (!results[table.at].empty()) {
+            blocks.emplace_back(tableOf(table, results[table.at], captions.table(qtext(table.title))));
+        }
+    }
+    return {};
 }
 
 void addApproval(std::vector<ReportBlock>& blocks, Captions& captions, const StudyRecord& study) {
@@ -156,9 +180,12 @@ Result<void> addResults(std::vector<ReportBlock>& blocks, Captions& captions, Se
     }
     for (const auto& person : persons) person.addHeadlines(blocks);
     addTogether(blocks, captions, basis, std::move(people));
+    if (auto added = addStudyFigures(blocks, captions, basis, study); !added) return added;
+    auto figures = peopleFigures(persons, study.settings.modality == Modality::Massager);
+    if (!figures) return failure(figures);
+    addFigures(blocks, captions, *figures);
     for (const auto& person : persons) {
-        if (auto added = person.add(blocks, captions, study.settings.modality, isSimulatedBasis(basis)); !added)
-            return added;
+        if (auto added = person.add(blocks, captions, study.settings.modality); !added) return added;
     }
     if (auto table = preferencesTable(study)) {
         blocks.emplace_back(captions.heading("Preferred encodings"));

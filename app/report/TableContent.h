@@ -10,6 +10,8 @@ namespace tacto {
 /// Makes a table from a script's table. If rows have their own `value` and `unit`, then value, expanded_uncertainty and
 /// unit become one column, "40.12 ± 0.46 V".
 [[nodiscard]] TableBlock tableOf(const ReportTable& source, const QString& caption);
+/// Makes a table from declared columns; leaves out columns without a known value.
+[[nodiscard]] TableBlock tableOf(const ResultTable& source, const nlohmann::json& records, const QString& caption);
 [[nodiscard]] MatrixBlock matrixOf(const ReportMatrix& source, const QString& caption);
 /// Shortens long texts as ShownText.h describes.
 [[nodiscard]] MatrixBlock shortened(MatrixBlock matrix, const QString& caption);

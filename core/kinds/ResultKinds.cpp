@@ -5,6 +5,7 @@
 #include "core/analysis/calibration/CalibrationJson.h"
 #include "core/analysis/drift/Drift.h"
 #include "core/analysis/encodings/ComparedEncodings.h"
+#include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/load_safety/LoadSafetyJson.h"
 #include "core/analysis/sensor_calibration/SensorCalibrationJson.h"
 #include "core/analysis/separability/SeparabilityJson.h"
@@ -30,7 +31,8 @@ const ResultTraits& resultTraits(std::string_view name) {
                                                   recordingKind(ResultKind::Massager),
                                                   pilotThresholdsKind(),
                                                   pilotIdentificationKind(),
-                                                  comparisonKind()};
+                                                  comparisonKind(),
+                                                  studyFiguresKind()};
     const auto found = std::ranges::find(kKinds, name, &ResultTraits::name);
     return found == kKinds.end() ? kOther : *found;
 }

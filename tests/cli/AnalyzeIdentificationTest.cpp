@@ -1,10 +1,13 @@
 // analyze identification: answers from a CSV, compared with the results of tests/reference/identification.py.
+#include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <random>
 
 #include "tests/cli/Shape.h"
 #include "tests/support/Figures.h"
+#include "tests/support/Trials.h"
 
 namespace tacto::test {
 namespace {
@@ -170,6 +173,53 @@ TEST(AnalyzeIdentification, RefusesWhatIsNoTableOfAnswers) {
                   {"columns stimulus and response were expected"});
     expectRefused(desk.run({"analyze", "identification", desk.write("b.csv", "stimulus,response\nx,x\n")}), 3,
                   {"b.csv", "at least two are needed"});
+}
+
+// Sessions and encodings of a table: which encoding is better, within person, counted by hand.
+TEST(AnalyzeIdentification, EncodingsAreComparedWithinPersonOverAllSessions) {
+    RecordProperty("hazard", "H9");
+    std::mt19937 random(49);
+    const Desk desk;
+    const int rounds = trials<int>({.local = 3, .ci = 10, .campaign = 100});
+    for (int round = 0; round < rounds; ++round) {
+        std::string text = "participant,session,encoding,trial,block,stimulus,response\n";
+        const int people = 2 + int(random() % 4);
+        double sum = 0, squares = 0;
+        for (int who = 0; who < people; ++who) {
+            double right[2] = {0, 0}, n[2] = {0, 0};
+            for (int session = 0; session < 4; ++session) {
+                const int which = (session + who) % 2;
+                for (int trial = 1; trial <= 24; ++trial) {
+                    const char asked = char('a' + trial % 4);
+                    const bool hit = random() % 100 < (which == 1 ? 80U : 55U);
+                    right[which] += hit ? 1 : 0;
+                    n[which] += 1;
+                    text += fmt::format("{},{},{},{},1,{},{}\n", who, session, which == 1 ? "swapped" : "standard",
+                                        trial, asked, hit ? asked : char('a' + (trial + 1) % 4));
+                }
+            }
+            const double difference = 100 * (right[1] / n[1] - right[0] / n[0]);
+            sum += difference;
+            squares += difference * difference;
+        }
+        const auto file = desk.write("answers.csv", text);
+        const auto ran = desk.run({"analyze", "identification", file, "--json"});
+        ASSERT_EQ(ran.code, 0) << ran.err;
+        const auto found = jsonOf(ran);
+        const auto& rows = found.at("differences");
+        ASSERT_EQ(rows.size(), std::size_t(people) + 1);
+        const auto& mean = rows.back();
+        EXPECT_EQ(mean.at("of"), "swapped minus standard");
+        EXPECT_NEAR(mean.at("points").at("value").get<double>(), sum / people, 1e-9);
+        // Never narrower than the spread of the people makes it: t is at least 1.96.
+        const double error = std::sqrt(std::max(0.0, squares - sum * sum / people) / (people - 1) / people);
+        EXPECT_LE(mean.at("points").at("low").get<double>(), sum / people - 1.96 * error + 1e-9);
+        EXPECT_EQ(found.at("encodings").size(), 2 * std::size_t(people));
+        EXPECT_EQ(found.at("people").at(0).at("n"), 96);
+        const auto said = desk.run({"analyze", "identification", file});
+        EXPECT_NE(said.out.find("swapped"), std::string::npos);
+        EXPECT_NE(said.out.find(fmt::format("{} degrees of freedom", people - 1)), std::string::npos) << said.out;
+    }
 }
 
 }  // namespace

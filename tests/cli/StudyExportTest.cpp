@@ -225,5 +225,40 @@ TEST(StudyOfTwoEncodings, EachPersonHasBothInAnOrderOfTheirOwnAndSaysWhichTheyPr
     EXPECT_EQ(asked, 1U) << "after the second encoding alone";
 }
 
+/// Each session is a row with its encoding, and the figures are those that the session itself came to.
+TEST_F(StudyExport, ResultsAndFiguresAreThoseOfTheSessions) {
+    RecordProperty("hazard", "H9");
+    const auto ran = desk_.run({"study", "results", study(), "--json"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const auto part = jsonOf(ran).at("parts").at(0);
+    EXPECT_EQ(part.at("basis"), "virtual participant");
+    ASSERT_EQ(part.at("sessions").size(), 1U);
+    const auto& session = part.at("sessions")[0];
+    EXPECT_EQ(session.at("encoding"), "standard");
+    EXPECT_EQ(session.at("hits"), run_.at("hits"));
+    EXPECT_EQ(session.at("n"), run_.at("n"));
+    EXPECT_NEAR(session.at("information").at("value").get<double>(), run_.at("it_corrected_bits").get<double>(), 1e-9);
+    EXPECT_EQ(part.at("encodings").at(0).at("hits"), run_.at("hits"));
+    EXPECT_TRUE(part.at("differences").empty());
+    EXPECT_TRUE(part.at("better").is_null());
+    const auto said = desk_.run({"study", "results", study()});
+    EXPECT_EQ(said.code, 0) << said.err;
+    EXPECT_THAT(said.out, HasSubstr("standard"));
+
+    const auto drawn = desk_.run({"report", study(), "--figures", at("figures")});
+    ASSERT_EQ(drawn.code, 0) << drawn.err;
+    const auto code = run_.at("participant").at("code").get<std::string>();
+    for (const char* name : {"-session-1-function", "-session-1-trace", "-blocks", "-thresholds", "-response-times"}) {
+        const auto text = readTextFile(fs::path(at("figures")) / (code + name + ".svg")).value_or("");
+        EXPECT_THAT(text, HasSubstr("<svg")) << name;
+        EXPECT_THAT(text, HasSubstr("SIMULATED")) << name;
+    }
+    expectRefused(desk_.run({"report", study(), "--figures", at("figures")}), 3, {"figures", "new or empty folder"});
+    expectRefused(desk_.run({"report", study(), "--figures", study() + "/figures"}), 3, {"inside the study folder"});
+    expectRefused(desk_.run({"report", study(), "--figures", at("other"), "--for", "committee"}), 2, {"--figures"});
+    expectRefused(desk_.run({"report", at("nothing.tacto"), "--figures", at("other")}), 2,
+                  {"--figures is for a study"});
+}
+
 }  // namespace
 }  // namespace tacto::test

@@ -4,11 +4,12 @@
 
 #include "app/gui/theme/Text.h"
 #include "app/run/Shipped.h"
+#include "core/analysis/identification/IdentificationJson.h"
 #include "core/base/JsonText.h"
 #include "core/base/Words.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/session/SessionReader.h"
-#include "core/sharing/results/StudyResults.h"
+#include "core/sharing/results/StudyFigures.h"
 
 namespace tacto::gui {
 
@@ -52,6 +53,22 @@ Result<RunResult> recordedResult(const Study& study, const StudySession& session
         return fail(ErrorCode::NotFound, "the record of session {} of {} holds no result", session.number,
                     session.code);
     return result;
+}
+
+Result<StudyShown> shownOf(const Study& study) {
+    const auto record = readStudyRecord(study);
+    if (!record) return failure(record);
+    StudyShown shown;
+    for (const auto& [basis, part] : byBasis(*record)) {
+        const auto found = studyFigures(basis, part);
+        if (!found) return failure(found);
+        shown.parts.push_back(toJson(*found));
+        shown.parts.back()["basis"] = nameOf(basis);
+    }
+    auto figures = pilotFigures(*record);
+    if (!figures) return failure(figures);
+    shown.figures = std::move(*figures);
+    return shown;
 }
 
 }  // namespace
@@ -158,6 +175,19 @@ void OpenStudy::exportBids(const QString& place, const BidsWith& with) {
                     else
                         emit refused(sentence(done.error()));
                 });
+    emit changed();
+}
+
+void OpenStudy::readResults() {
+    if (study() == nullptr) return;
+    work_.take([this](const WorkPort&) { return shownOf(*study_); },
+               [this](const Result<StudyShown>& read) {
+                   emit changed();
+                   if (read)
+                       emit resultsRead(*read);
+                   else
+                       emit refused(sentence(read.error()));
+               });
     emit changed();
 }
 

@@ -11,12 +11,19 @@
 #include <optional>
 
 #include "app/gui/sessions/Background.h"
+#include "app/report/PilotFigures.h"
 #include "app/run/ProtocolRun.h"
 #include "core/bench/Profile.h"
 #include "core/sharing/BidsFiles.h"
 #include "core/study/Study.h"
 
 namespace tacto::gui {
+
+/// The results of a study as a page shows them.
+struct StudyShown {
+    std::vector<nlohmann::json> parts;  ///< of each kind of participants, as toJson(StudyFigures), with "basis"
+    std::vector<PilotFigure> figures;
+};
 
 class OpenStudy final : public QObject {
     Q_OBJECT
@@ -50,6 +57,8 @@ public:
     void exportBids(const QString& place, const BidsWith& with = {});
     /// Reads the result of session `id` on another thread. resultRead() or refused() follows.
     void readResult(const QString& id);
+    /// Reads the results of all sessions on another thread. resultsRead() or refused() follows.
+    void readResults();
     /// Sets the profile for the study's sessions, to which the approval refers. Until then the shipped profile is used.
     void setProfile(std::function<Profile()> profile) { profile_ = std::move(profile); }
     [[nodiscard]] Profile profile() const;
@@ -63,6 +72,7 @@ signals:
     void passphraseChanged();
     void exported(const QString& place);
     void resultRead(const tacto::RunResult& result);
+    void resultsRead(const tacto::gui::StudyShown& shown);
 
 private:
     using Make = std::function<Result<Study>()>;

@@ -188,6 +188,12 @@ QWidget* StudyList::buildFoot() {
     auto* row = new TurningRow({}, holder);
     row->setContentsMargins(0, 0, 0, 0);
     for (QBoxLayout* each : {static_cast<QBoxLayout*>(about), static_cast<QBoxLayout*>(row)}) each->setSpacing(8);
+    auto* found = pageButton(tr("Results"), "studyResultsWanted",
+                             tr("Each session with its encoding, which encoding is better, and the figures."), holder);
+    connect(found, &QPushButton::clicked, this, [this] {
+        say({});
+        study_.readResults();
+    });
     auto* reports = pageButton(tr("Report"), "reports", tr("As PDF or HTML, outside the study’s folder."), holder);
     auto* out = pageButton(tr("Export…"), "exportStudy",
                            tr("Results without codes and dates, as a BIDS dataset in a new folder."), holder);
@@ -223,11 +229,11 @@ QWidget* StudyList::buildFoot() {
     auto* close = pageButton(tr("Close the study"), "closeStudy",
                              tr("Forgets its passphrase. Another program can change it then."), holder);
     connect(close, &QPushButton::clicked, this, [this] { study_.close(); });
-    for (auto* each : {note, reports, out}) about->addWidget(each);
+    for (auto* each : {found, note, reports, out}) about->addWidget(each);
     about->addStretch();
     row->addLayout(about, 1);
     row->addWidget(close);
-    for (auto* each : {note, reports, out, close}) all_.push_back(each);
+    for (auto* each : {found, note, reports, out, close}) all_.push_back(each);
     return holder;
 }
 
@@ -397,13 +403,14 @@ std::string localText(std::chrono::sys_seconds at) {
     return QDateTime::fromSecsSinceEpoch(at.time_since_epoch().count()).toString("yyyy-MM-dd HH:mm").toStdString();
 }
 
-/// Returns the rows: {code, number, protocol, state, answered, begun}.
+/// Returns the rows: {code, number, protocol, encoding, state, answered, begun}.
 json sessionRows(const std::vector<StudySession>& sessions) {
     auto rows = json::array();
     for (const auto& one : sessions)
         rows.push_back({{"code", one.code.empty() ? json() : json(namedWith(one.basis, one.code))},
                         {"number", one.number},
                         {"protocol", protocolWords(one.protocol).toStdString()},
+                        {"encoding", one.encoding.empty() ? json() : json(one.encoding)},
                         {"state", stateWords(one.state).toStdString()},
                         {"answered", one.answered},
                         {"begun", localText(one.parts.front().begun)}});
@@ -439,7 +446,8 @@ void StudySessions::show(const Study& study) {
                   {"Begun", "begun"},
                   {"Protocol", "protocol"},
                   {"Answers", "answered", ResultColumn::As::Number},
-                  {"State", "state"}},
+                  {"State", "state"},
+                  {"Encoding", "encoding"}},
                  sessionRows(sessions_));
     if (!sessions_.empty())
         table_->selectRow(known == sessions_.end() ? table_->rowCount() - 1 : int(known - sessions_.begin()));

@@ -4,6 +4,7 @@
 #include <QStandardPaths>
 
 #include "app/gui/study/StudyList.h"
+#include "app/gui/study/StudyResults.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Pages.h"
@@ -37,6 +38,13 @@ StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
     list_ = new StudyList(study_, list->viewport());
     list->hold(list_);
     pages_->addWidget(list);
+    results_ = new StudyResults(study_, pages_);
+    pages_->addWidget(results_);
+    connect(results_, &StudyResults::backWanted, this, [this] { pages_->setCurrentIndex(kList); });
+    connect(&study_, &OpenStudy::resultsRead, this, [this](const StudyShown& shown) {
+        results_->show(shown);
+        pages_->setCurrentIndex(kResults);
+    });
     connect(new_, &NewStudyPage::cancelled, this, [this] { pages_->setCurrentIndex(kNone); });
     connect(list_, &StudyList::sessionWanted, this, &StudyPage::sessionWanted);
     connect(&study_, &OpenStudy::opened, this, [this] {
@@ -48,7 +56,7 @@ StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
         if (!asks_) pages_->currentIndex() == kList ? list_->say(why) : say(why);
     });
     connect(&study_, &OpenStudy::changed, this, [this] {
-        if (study_.folder().isEmpty() && pages_->currentIndex() == kList) pages_->setCurrentIndex(kNone);
+        if (study_.folder().isEmpty() && pages_->currentIndex() >= kList) pages_->setCurrentIndex(kNone);
     });
 }
 

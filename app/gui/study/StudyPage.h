@@ -18,6 +18,7 @@ class NewStudyPage;
 class PageStack;
 class PassphraseDialog;
 class StudyList;
+class StudyResults;
 
 class StudyPage final : public QWidget {
     Q_OBJECT
@@ -32,7 +33,7 @@ signals:
     void sessionWanted(const QString& code);
 
 private:
-    enum Page { kNone, kNew, kList };
+    enum Page { kNone, kNew, kList, kResults };
     [[nodiscard]] QWidget* buildNone();
     void chooseFolder();
     void say(const QString& what);
@@ -40,6 +41,7 @@ private:
     PageStack* pages_;
     NewStudyPage* new_;
     StudyList* list_ = nullptr;
+    StudyResults* results_ = nullptr;
     TroubleLine* trouble_ = nullptr;
     QPointer<PassphraseDialog> asks_;
 };

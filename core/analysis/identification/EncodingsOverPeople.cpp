@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
+#include "core/analysis/statistics/InformationTransfer.h"
 #include "core/analysis/statistics/UncertaintyBudget.h"
 #include "core/base/Statistics.h"
 
@@ -81,6 +84,35 @@ std::string betterOf(const PairOverPeople& pair) {
 
 }  // namespace
 
+namespace {
+
+/// Adds the tables of sessions, label by label, and takes the figures of the sum.
+void addTables(EncodingResult& result, std::span<const Identification* const> sessions) {
+    std::map<std::string, std::map<std::string, std::size_t>> counts;  // presented, answered
+    std::set<std::string> columns;
+    for (const auto* session : sessions) {
+        columns.insert(session->columns.begin(), session->columns.end());
+        for (std::size_t i = 0; i < session->labels.size(); ++i) {
+            for (std::size_t j = 0; j < session->columns.size(); ++j)
+                counts[session->labels[i]][session->columns[j]] += session->confusion[i][j];
+        }
+    }
+    std::vector<std::vector<double>> table;
+    for (const auto& [label, row] : counts) {
+        auto& cells = table.emplace_back();
+        for (const auto& column : columns) {
+            const auto cell = row.find(column);
+            const std::size_t count = cell == row.end() ? 0 : cell->second;
+            cells.push_back(static_cast<double>(count));
+            result.n += count;
+            if (column == label) result.hits += count;
+        }
+    }
+    result.itCorrected_bits = correctedInformation(table);
+}
+
+}  // namespace
+
 std::vector<EncodingResult> encodingResults(std::span<const EncodedSession> sessions) {
     struct Sum {
         EncodingResult result;
@@ -103,10 +135,7 @@ std::vector<EncodingResult> encodingResults(std::span<const EncodedSession> sess
     }
     std::vector<EncodingResult> all;
     for (auto& sum : sums) {
-        const auto figures = figuresTogether(sum.tables);
-        sum.result.n = figures.n;
-        sum.result.hits = figures.hits;
-        sum.result.itCorrected_bits = figures.itCorrected_bits;
+        addTables(sum.result, sum.tables);
         sum.result.medianResponse_s = statisticsOf(sum.times).median;
         sum.result.naturalness = statisticsOf(sum.naturalness).mean;
         all.push_back(std::move(sum.result));
@@ -157,7 +186,7 @@ std::vector<std::string> encodingSentences(const EncodingsOverPeople& found) {
             fmt::format("{} minus {}: {:+.0f} percentage points", pair.a, pair.b, 100 * pair.accuracy.value);
         if (n == 1) {
             all.push_back(
-                fmt::format("Which of {} and {} is better is not decided: one of the {} had both. {} "
+                fmt::format("Which of {} and {} is better is not decided: only one of the {} had both. {} "
                             "(95 % of that person alone {:+.0f} to {:+.0f}).",
                             pair.a, pair.b, found.who, mean, 100 * pair.people.front().accuracy.low,
                             100 * pair.people.front().accuracy.high));
@@ -186,6 +215,13 @@ std::vector<std::string> encodingSentences(const EncodingsOverPeople& found) {
         all.push_back(std::move(text));
     }
     return all;
+}
+
+std::string assignmentSentence(const EncodingsOverPeople& found) {
+    if (found.better == "swapped")
+        return "A profile takes it as \"assignment\": \"swapped\": pressure to amplitude, and texture to interval.";
+    if (found.better == "standard") return "It is the assignment of the profile with which the sessions were run.";
+    return {};
 }
 
 }  // namespace tacto

@@ -11,7 +11,6 @@
 // Thread-safety: pure functions.
 #pragma once
 
-#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -74,5 +73,15 @@ struct EncodingsOverPeople {
 /// Returns for each pair whether one of them is better, by how much, for how many people, and what the figures assume;
 /// empty without a pair.
 [[nodiscard]] std::vector<std::string> encodingSentences(const EncodingsOverPeople& found);
+
+/// Returns how a profile takes the better encoding; empty if none is, or if it is not one of a study.
+[[nodiscard]] std::string assignmentSentence(const EncodingsOverPeople& found);
+
+/// The results of a study's participants of one kind: each session in a row, and the encodings over people.
+struct StudyFigures {
+    std::vector<SessionFigures> sessions;
+    EncodingsOverPeople encodings;
+    bool massager = false;  ///< levels are strengths
+};
 
 }  // namespace tacto

@@ -21,6 +21,7 @@ struct PersonResult {
     std::string name;            ///< displayed name: a code in the study, otherwise a label
     bool usable = true;          ///< true if the person had a range between detection and discomfort
     ConfusionFigures figures{};  ///< n = 0 if no test trial was answered
+    std::string encoding = {};   ///< with which the answers were given; empty: not stated
 };
 
 /// A person who cannot be judged, and why.

@@ -23,11 +23,6 @@ bool isReserved(std::string_view name) {
     return name == kCatchCondition || name == kNoneResponse || name == kNotSureResponse;
 }
 
-/// Number of offered answers that are names of conditions.
-std::size_t namesIn(const std::vector<std::string>& columns) {
-    return static_cast<std::size_t>(std::ranges::count_if(columns, std::not_fn(isReserved)));
-}
-
 std::optional<std::size_t> indexOf(const std::vector<std::string>& names, std::string_view name) {
     const auto at = std::ranges::find(names, name);
     if (at == names.end()) return std::nullopt;
@@ -193,7 +188,8 @@ Result<Identification> analysed(std::span<const IdentificationTrial> trials, std
     out.confusion.assign(out.labels.size(), std::vector<std::size_t>(out.columns.size(), 0));
     addTrials(out, trials);
     out.noAnswer = unanswered(trials);
-    out.all = figuresOf(out.confusion, namesIn(out.columns));
+    const auto isName = [](const std::string& column) { return !isReserved(column); };
+    out.all = figuresOf(out.confusion, static_cast<std::size_t>(std::ranges::count_if(out.columns, isName)));
     out.catches.rate = clopperPearsonInterval(out.catches.falseAlarms, out.catches.n);
     if (areTwoByTwo(out.labels)) {
         out.texture = mergedBy(&LabelFeatures::texture, out);
@@ -223,27 +219,6 @@ Result<Identification> identifyAsMet(std::span<const IdentificationTrial> trials
     auto labels = namesMet(trials, &IdentificationTrial::condition, {});
     auto columns = namesMet(trials, &IdentificationTrial::response, labels);
     return analysed(trials, std::move(labels), std::move(columns));
-}
-
-ConfusionFigures figuresTogether(std::span<const Identification* const> sessions) {
-    std::vector<std::string> labels;
-    const auto meet = [](std::vector<std::string>& met, const std::vector<std::string>& names) {
-        for (const auto& name : names) {
-            if (!indexOf(met, name)) met.push_back(name);
-        }
-    };
-    for (const auto* session : sessions) meet(labels, session->labels);
-    auto columns = labels;
-    for (const auto* session : sessions) meet(columns, session->columns);
-    Counts counts(labels.size(), std::vector<std::size_t>(columns.size(), 0));
-    for (const auto* session : sessions) {
-        for (std::size_t i = 0; i < session->labels.size(); ++i) {
-            for (std::size_t j = 0; j < session->columns.size(); ++j)
-                counts[*indexOf(labels, session->labels[i])][*indexOf(columns, session->columns[j])] +=
-                    session->confusion[i][j];
-        }
-    }
-    return figuresOf(counts, namesIn(columns));
 }
 
 Result<TrialPhase> trialPhaseFrom(std::string_view name) {

@@ -125,7 +125,5 @@ struct Identification {
 /// Analyses trials without a known list of labels. Rows are the conditions found; the offered answers are these
 /// conditions and all other answers found, in the order of first appearance. Errors: as identify().
 [[nodiscard]] Result<Identification> identifyAsMet(std::span<const IdentificationTrial> trials);
-/// The figures of several sessions of one person: their tables are added, label by label.
-[[nodiscard]] ConfusionFigures figuresTogether(std::span<const Identification* const> sessions);
 
 }  // namespace tacto

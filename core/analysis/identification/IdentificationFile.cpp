@@ -26,6 +26,22 @@ Result<std::size_t> countIn(const NamedRows& rows, std::optional<std::size_t> co
 
 }  // namespace
 
+std::vector<IdentificationTrial> ParticipantTrials::trials() const {
+    if (sessions.size() == 1) return sessions.front().trials;
+    std::vector<IdentificationTrial> all;
+    std::size_t before = 0;  // numbers of earlier sessions
+    for (const auto& session : sessions) {
+        std::size_t last = before;
+        for (auto trial : session.trials) {
+            trial.number += before;
+            last = std::max(last, trial.number);
+            all.push_back(std::move(trial));
+        }
+        before = last;
+    }
+    return all;
+}
+
 Result<std::vector<ParticipantTrials>> readIdentificationTrials(const std::filesystem::path& path) {
     const auto text = readTextFile(path);
     if (!text) return failure(text);
@@ -39,7 +55,8 @@ Result<std::vector<ParticipantTrials>> parseIdentificationTrials(std::string_vie
     const auto response = rows.column({"response"});
     if (!response) return failure(response);
     const auto participant = rows.find({"participant", "participant_id"});
-    const auto basis = rows.find({"basis"});
+    const auto basis = rows.find({"basis"}), session = rows.find({"session", "session_id"}),
+               encoding = rows.find({"encoding"});
     const auto number = rows.find({"number", "trial"}), block = rows.find({"block"}), phase = rows.find({"phase"}),
                attempt = rows.find({"attempt"}), time = rows.find({"response_time", "rt_s"});
 
@@ -50,22 +67,30 @@ Result<std::vector<ParticipantTrials>> parseIdentificationTrials(std::string_vie
         auto person = std::ranges::find(people, who, &ParticipantTrials::participant);
         if (person == people.end()) person = people.insert(people.end(), {who, {}, {}});
         const std::string on(basis && !isMissing(rows[*basis]) ? rows[*basis] : "");
-        if (person->trials.empty()) person->basis = on;
+        if (person->sessions.empty()) person->basis = on;
         if (on != person->basis) {
             return rows.refuse(
                 "basis '{}', and rows of '{}' before it have '{}'; one for each participant was expected",
                 on.substr(0, 40), who.substr(0, 40), person->basis.substr(0, 40));
         }
-        auto& trials = person->trials;
+        const auto named = [&rows](std::optional<std::size_t> column) {
+            return std::string(column && !isMissing(rows[*column]) ? rows[*column] : "");
+        };
+        const TableSession key{named(session), named(encoding), {}};
+        auto of = std::ranges::find_if(person->sessions, [&](const TableSession& each) {
+            return each.session == key.session && each.encoding == key.encoding;
+        });
+        if (of == person->sessions.end()) of = person->sessions.insert(of, key);
+        auto& trials = of->trials;
         IdentificationTrial trial;
         trial.condition = std::string(rows[*condition]);
         if (isMissing(trial.condition)) return rows.refuse("the stimulus is empty; a name was expected");
         if (!isMissing(rows[*response])) trial.response = std::string(rows[*response]);
         if (trial.response == "not_sure") trial.response = kNotSureResponse;
         if (phase && !isMissing(rows[*phase])) {
-            const auto named = trialPhaseFrom(rows[*phase]);
-            if (!named) return rows.refuse("{}", named.error().message);
-            trial.phase = *named;
+            const auto known = trialPhaseFrom(rows[*phase]);
+            if (!known) return rows.refuse("{}", known.error().message);
+            trial.phase = *known;
         }
         struct Count {
             std::optional<std::size_t> column;

@@ -11,17 +11,25 @@
 
 namespace tacto {
 
-struct ParticipantTrials {
-    std::string participant;  ///< empty if the table has no such column
-    std::string basis;        ///< "person" or "virtual participant" as in the table; empty if absent
+/// The trials of one session with one encoding; both names are empty if the table has no such column.
+struct TableSession {
+    std::string session, encoding;
     std::vector<IdentificationTrial> trials;
 };
 
+struct ParticipantTrials {
+    std::string participant;             ///< empty if the table has no such column
+    std::string basis;                   ///< "person" or "virtual participant" as in the table; empty if absent
+    std::vector<TableSession> sessions;  ///< in the order of first appearance
+    /// Returns the trials of all sessions. With several sessions each trial gets a number of its own.
+    [[nodiscard]] std::vector<IdentificationTrial> trials() const;
+};
+
 /// Reads trials from the columns `stimulus` (or `condition`, or `trial_type` as in the BIDS export) and `response`.
-/// Optional columns: `participant`, `trial`, `block`, `phase`, `attempt`, `response_time` (or `rt_s`) and `basis` (the
-/// kind of participant). Separated by comma, semicolon or tab. "not_sure" is read as "not-sure". An empty response or
-/// n/a means no answer. A row without a phase is a test trial. Errors: NotFound, Io; ParseError naming file, line and
-/// expectation.
+/// Optional columns: `participant`, `session`, `encoding`, `trial`, `block`, `phase`, `attempt`, `response_time` (or
+/// `rt_s`) and `basis` (the kind of participant). Separated by comma, semicolon or tab. "not_sure" is read as
+/// "not-sure". An empty response or n/a means no answer. A row without a phase is a test trial. Errors: NotFound, Io;
+/// ParseError naming file, line and expectation.
 [[nodiscard]] Result<std::vector<ParticipantTrials>> readIdentificationTrials(const std::filesystem::path& path);
 /// Reads the same table from text; `name` replaces the file name in messages.
 [[nodiscard]] Result<std::vector<ParticipantTrials>> parseIdentificationTrials(std::string_view text,

@@ -96,48 +96,122 @@ ResultRecord<Identification> describeIdentification() {
     return all;
 }
 
-ResultRecord<EncodingResult> describeEncoding() {
+/// One person's results with one encoding, with the person's name.
+struct EncodingRow {
+    std::string participant;
+    EncodingResult result;
+};
+
+ResultRecord<EncodingRow> describeEncoding() {
     using E = EncodingResult;
-    ResultRecord<E> all;
-    all.kept("encoding", &E::encoding);
-    all.kept("n", &E::n);
-    all.kept("hits", &E::hits);
-    all.kept("accuracy", [](const E& result) { return wilsonInterval(result.hits, result.n); });
-    all.kept("training_blocks", &E::trainingBlocks);
-    all.kept("median_rt_s", &E::medianResponse_s);
-    all.kept("naturalness", &E::naturalness);
-    all.kept("sessions", &E::sessions);
-    all.kept("it_corrected_bits", in(&E::itCorrected_bits, &Estimate::value));
-    all.kept("it_corrected_low_bits", in(&E::itCorrected_bits, &Estimate::low));
-    all.kept("it_corrected_high_bits", in(&E::itCorrected_bits, &Estimate::high));
+    ResultRecord<EncodingRow> row;
+    const auto of = [](auto member) { return in(&EncodingRow::result, member); };
+    row.shown(text("Participant", "participant"), &EncodingRow::participant);
+    row.shown(text("Encoding", "encoding"), of(&E::encoding));
+    row.shown(number("Sessions", "sessions"), of(&E::sessions));
+    row.shown(number("Right", "hits"), of(&E::hits));
+    row.shown(number("n", "n"), of(&E::n));
+    row.shown(as(As::Share, "Share", "accuracy"),
+              [](const EncodingRow& each) { return wilsonInterval(each.result.hits, each.result.n); });
+    row.shown(number("Corrected information", "information", "bit"), of(&E::itCorrected_bits));
+    row.kept("training_blocks", of(&E::trainingBlocks));
+    row.kept("median_rt_s", of(&E::medianResponse_s));
+    row.kept("naturalness", of(&E::naturalness));
+    return row;
+}
+
+/// One person's difference of two encodings, or the mean over people.
+struct DifferenceRow {
+    std::string of, participant, first;
+    Estimate accuracy, bits;
+    double p = kNaN;
+};
+
+ResultRecord<DifferenceRow> describeDifference() {
+    using D = DifferenceRow;
+    ResultRecord<D> all;
+    all.shown(text("Participant", "participant"), &D::participant);
+    all.shown(text("Difference", "of"), &D::of);
+    all.shown(number("Right (percentage points)", "points"), [](const D& row) {
+        return Estimate{100 * row.accuracy.value, 100 * row.accuracy.low, 100 * row.accuracy.high};
+    });
+    all.shown(number("Information", "bits", "bit"), &D::bits);
+    all.kept("first", nullIfEmpty(&D::first));
+    all.shown(as(As::Chance, "By exchange, p", "p"), &D::p);
     return all;
+}
+
+std::vector<EncodingRow> encodingRows(const EncodingsOverPeople& found) {
+    std::vector<EncodingRow> rows;
+    for (const auto& person : found.people) {
+        for (const auto& each : person.encodings) rows.push_back({person.name, each});
+    }
+    return rows;
+}
+
+std::vector<DifferenceRow> differenceRows(const EncodingsOverPeople& found) {
+    std::vector<DifferenceRow> rows;
+    for (const auto& pair : found.pairs) {
+        const auto of = fmt::format("{} minus {}", pair.a, pair.b);
+        for (const auto& person : pair.people)
+            rows.push_back({of, person.name, person.aFirst ? pair.a : pair.b, person.accuracy, {person.bits}, kNaN});
+        if (pair.people.size() > 1) rows.push_back({of, "mean", {}, pair.accuracy, pair.bits, pair.exchangeP});
+    }
+    return rows;
 }
 
 ResultRecord<EncodingsOverPeople> describeOverPeople() {
     using O = EncodingsOverPeople;
-    using P = PairOverPeople;
-    ResultRecord<PersonEncodings> person;
-    person.kept("name", &PersonEncodings::name);
-    person.kept("encodings", &PersonEncodings::encodings, describeEncoding());
-    ResultRecord<PersonDifference> difference;
-    difference.kept("name", &PersonDifference::name);
-    difference.kept("accuracy", &PersonDifference::accuracy);
-    difference.kept("bits", &PersonDifference::bits);
-    difference.kept("a_first", &PersonDifference::aFirst);
-    ResultRecord<P> pair;
-    pair.kept("a", &P::a);
-    pair.kept("b", &P::b);
-    pair.kept("people", &P::people, difference);
-    pair.kept("accuracy", &P::accuracy);
-    pair.kept("bits", &P::bits);
-    pair.kept("a_better", &P::aBetter);
-    pair.kept("b_better", &P::bBetter);
-    pair.kept("exchange_p", &P::exchangeP);
     ResultRecord<O> all;
-    all.kept("people", &O::people, person);
-    all.kept("pairs", &O::pairs, pair);
+    all.table(sentences("Which encoding is better", "sentences"));
+    all.rows("Each participant with each encoding, all sessions together", "encodings", encodingRows,
+             describeEncoding());
+    all.rows("Differences within person", "differences", differenceRows, describeDifference());
+    all.table(rows(
+        "Training, response times and ratings with each encoding", "encodings",
+        {text("Participant", "participant"), text("Encoding", "encoding"), number("Training blocks", "training_blocks"),
+         number("Median response", "median_rt_s", "s"), number("Naturalness, 1 to 5", "naturalness")}));
     all.kept("better", nullIfEmpty(&O::better));
-    all.kept("sentences", [](const O& found) { return encodingSentences(found); });
+    all.kept("sentences", [](const O& found) {
+        auto said = encodingSentences(found);
+        if (auto set = assignmentSentence(found); !set.empty()) said.push_back(std::move(set));
+        return said;
+    });
+    return all;
+}
+
+ResultRecord<SessionFigures> describeSession() {
+    using S = SessionFigures;
+    ResultRecord<S> all;
+    all.shown(text("Participant", "participant"), &S::participant);
+    all.shown(number("Session", "number"), &S::number);
+    all.shown(number("Day", "days"), &S::days);
+    all.shown(text("Encoding", "encoding"), nullIfEmpty(&S::encoding));
+    all.kept("detection", &S::detection);
+    all.kept("too_strong", &S::tooStrong);
+    all.kept("low", &S::low);
+    all.kept("high", &S::high);
+    all.shown(number("Right", "hits"), &S::hits);
+    all.shown(number("n", "n"), &S::n);
+    all.shown(as(As::Share, "Share", "accuracy"),
+              [](const S& session) { return session.n > 0 ? wilsonInterval(session.hits, session.n) : Estimate(); });
+    all.shown(number("Corrected information", "information", "bit"), &S::itCorrected_bits);
+    all.kept("median_rt_s", &S::medianResponse_s);
+    all.kept("impedance_ohm", [](const S& session) { return session.impedance.value(); });
+    return all;
+}
+
+ResultRecord<StudyFigures> describeStudy() {
+    using F = StudyFigures;
+    ResultRecord<F> all;
+    all.rows("Sessions", "sessions", &F::sessions, describeSession());
+    all.table(rows("Thresholds in each session", "sessions",
+                   {text("Participant", "participant"), number("Session", "number"),
+                    number("Detection", "detection", "@unit"), number("Too strong from", "too_strong", "@unit"),
+                    number("Range, from", "low", "@unit"), number("to", "high", "@unit")}));
+    const auto& encodings = describeOverPeople();
+    all.merge(&F::encodings, encodings);
+    for (const auto& table : encodings.tables()) all.table(table);
     return all;
 }
 
@@ -197,6 +271,15 @@ json toJson(const Identification& found) { return builtOnce<describeIdentificati
 json toJson(const FewPeople& people) { return builtOnce<describePeople>().write(people); }
 
 json toJson(const EncodingsOverPeople& found) { return builtOnce<describeOverPeople>().write(found); }
+
+json toJson(const StudyFigures& found) {
+    auto out = builtOnce<describeStudy>().write(found);
+    out["kind"] = "study-results";
+    for (auto& session : out["sessions"]) session["unit"] = found.massager ? "" : "mA";
+    return out;
+}
+
+ResultTraits studyFiguresKind() { return {.name = "study-results", .tables = builtOnce<describeStudy>().tables()}; }
 
 const std::vector<ResultTable>& identificationTables() { return builtOnce<describeIdentification>().tables(); }
 

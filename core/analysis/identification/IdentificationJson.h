@@ -8,6 +8,7 @@
 #include "core/analysis/identification/FewPeople.h"
 #include "core/analysis/identification/Identification.h"
 #include "core/analysis/identification/OverSessions.h"
+#include "core/results/ResultKind.h"
 #include "core/results/ResultTable.h"
 
 namespace tacto {
@@ -32,8 +33,15 @@ namespace tacto {
 /// "above_chance": {"k", "n", "share", "prevalence", "prevalence_at_least"}}; "prevalence_at_least" is the lower end of
 /// "prevalence".
 [[nodiscard]] nlohmann::json toJson(const FewPeople& people);
-/// {"people": [{"name", "encodings"}], "pairs": [{"a", "b", "people": [{"name", "accuracy", "bits", "a_first"}],
-/// "accuracy", "bits", "a_better", "b_better", "exchange_p"}], "better", "sentences"}
+/// {"encodings": [{"participant", "encoding", "sessions", "n", "hits", "accuracy", "it_corrected_bits", ...}],
+/// "differences": [{"of", "participant", "points", "bits", "first", "p"}], "better", "sentences"}; the last row of each
+/// pair is the mean over people
 [[nodiscard]] nlohmann::json toJson(const EncodingsOverPeople& found);
+
+/// {"kind", "sessions": [{"participant", "number", "days", "encoding", "detection", "too_strong", "low", "high",
+/// "unit", "impedance_ohm", "hits", "n", "accuracy", "it_corrected_bits", ..., "median_rt_s"}] and the members of the
+/// encodings
+[[nodiscard]] nlohmann::json toJson(const StudyFigures& found);
+[[nodiscard]] ResultTraits studyFiguresKind();
 
 }  // namespace tacto

@@ -24,7 +24,11 @@ struct SessionFigures {
     double tooStrong = kNaN, high = kNaN;  ///< lowest level called too strong, highest of the range; mA or intensity
     Ohms impedance{kNaN};
     std::size_t n = 0, hits = 0;
-    Estimate itCorrected_bits;  ///< NaN without test trials
+    Estimate itCorrected_bits;       ///< NaN without test trials
+    std::string participant = {};    ///< name as shown
+    std::string encoding = {};       ///< empty: not stated
+    double low = kNaN;               ///< lowest of the range
+    double medianResponse_s = kNaN;  ///< of the test
 };
 
 /// Changes relative to the first session that has the figure. NaN for that session and for unmeasured figures.

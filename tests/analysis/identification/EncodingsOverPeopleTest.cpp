@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <numeric>
 
 #include "core/analysis/identification/EncodingsOverPeople.h"
@@ -30,8 +31,8 @@ std::vector<IdentificationTrial> sessionOf(double skill, std::size_t trials, Ran
 
 /// Quantile of Student's t by integrating its density, written from the definition.
 double studentByHand(double p, double freedom) {
-    const double scale = std::exp(std::lgamma((freedom + 1) / 2) - std::lgamma(freedom / 2)) /
-                         std::sqrt(freedom * 3.14159265358979323846);
+    const double scale =
+        std::exp(std::lgamma((freedom + 1) / 2) - std::lgamma(freedom / 2)) / std::sqrt(freedom * std::numbers::pi);
     double mass = 0.5, x = 0;
     constexpr double kStep = 1e-4;
     const auto density = [&](double t) { return scale * std::pow(1 + t * t / freedom, -(freedom + 1) / 2); };

@@ -80,7 +80,7 @@ TEST(IdentificationFile, ReadsAPlainTableAndTheExportsTable) {
     const auto plain =
         test::accepted(parseIdentificationTrials("stimulus,response\nrough,rough\nsmooth,none\n", "t.csv"));
     ASSERT_EQ(plain.size(), 1U);
-    const auto& trials = plain.front().trials;
+    const auto& trials = plain.front().sessions.front().trials;
     ASSERT_EQ(trials.size(), 2U);
     EXPECT_EQ(trials[1].number, 2U);
     EXPECT_EQ(trials[1].phase, TrialPhase::Test);
@@ -92,7 +92,7 @@ TEST(IdentificationFile, ReadsAPlainTableAndTheExportsTable) {
         "a\t1\n",
         "beh.tsv"));
     ASSERT_EQ(bids.size(), 1U);
-    const auto& exported = bids.front().trials;
+    const auto& exported = bids.front().sessions.front().trials;
     ASSERT_EQ(exported.size(), 3U);
     EXPECT_EQ(exported[0].phase, TrialPhase::Training);
     EXPECT_EQ(exported[1].number, 7U);
@@ -109,9 +109,9 @@ TEST(IdentificationFile, KeepsParticipantsApart) {
     ASSERT_TRUE(people) << people.error().message;
     ASSERT_EQ(people->size(), 2U);
     EXPECT_EQ((*people)[0].participant, "A");
-    EXPECT_EQ((*people)[0].trials.size(), 2U);
-    EXPECT_EQ((*people)[0].trials[1].number, 2U);
-    EXPECT_EQ((*people)[1].trials.size(), 1U);
+    EXPECT_EQ((*people)[0].trials().size(), 2U);
+    EXPECT_EQ((*people)[0].trials()[1].number, 2U);
+    EXPECT_EQ((*people)[1].trials().size(), 1U);
 }
 
 TEST(IdentificationFile, RefusesByLine) {
