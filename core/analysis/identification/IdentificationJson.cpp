@@ -204,14 +204,15 @@ ResultRecord<SessionFigures> describeSession() {
 ResultRecord<StudyFigures> describeStudy() {
     using F = StudyFigures;
     ResultRecord<F> all;
+    const auto& encodings = describeOverPeople();
+    all.merge(&F::encodings, encodings);
+    all.table(encodings.tables().front());  // the sentences come first
     all.rows("Sessions", "sessions", &F::sessions, describeSession());
     all.table(rows("Thresholds in each session", "sessions",
                    {text("Participant", "participant"), number("Session", "number"),
                     number("Detection", "detection", "@unit"), number("Too strong from", "too_strong", "@unit"),
                     number("Range, from", "low", "@unit"), number("to", "high", "@unit")}));
-    const auto& encodings = describeOverPeople();
-    all.merge(&F::encodings, encodings);
-    for (const auto& table : encodings.tables()) all.table(table);
+    for (std::size_t i = 1; i < encodings.tables().size(); ++i) all.table(encodings.tables()[i]);
     return all;
 }
 
