@@ -34,7 +34,7 @@ protocol({
     comparison: {
       label: "Weber fraction of strength",
       type: "choice",
-      choices: { no: "is not measured", yes: "is measured after the range, by 40 trials" },
+      choices: { no: "is not measured", yes: "is measured, by 40 trials" },
       value: "no",
     },
     detection: {
