@@ -8,6 +8,7 @@
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
+#include "app/gui/theme/ToolRow.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/identification/IdentificationText.h"
 #include "core/base/JsonText.h"
@@ -120,6 +121,8 @@ PilotResult::PilotResult(QWidget* parent)
       another_(pageButton(tr("New rehearsal"), "anotherRehearsal",
                           tr("In a folder of its own: the same seed gives the same session."), this)),
       back_(pageButton({}, "backFromResult", {}, this)),
+      report_(pageButton(tr("Report"), "reportOfResult",
+                         tr("Draws the report with this session, to print, save or find it."), this)),
       place_(pageButton(tr("Open the folder"), "openFolder", {}, this)) {
     setObjectName("pilotResult");
     auto* all = columnIn(*this, 0);
@@ -145,11 +148,24 @@ PilotResult::PilotResult(QWidget* parent)
     auto* row = addPageFoot(*all, this);
     goOn_->setIcon(icon("run", Ink::Primary));
     makePrimary(*goOn_);
-    for (auto* button : {goOn_, another_, back_, place_}) row->addWidget(button);
-    row->addStretch();
+    auto* holder = new QWidget(this);
+    auto* lines = new TurningRow({}, holder);
+    lines->setContentsMargins(0, 0, 0, 0);
+    lines->setSpacing(8);
+    const auto add = [lines](std::initializer_list<QWidget*> buttons, int stretch) {
+        auto* part = new QHBoxLayout;
+        part->setSpacing(8);
+        addAll(*part, buttons);
+        part->addStretch();
+        lines->addLayout(part, stretch);
+    };
+    add({goOn_, another_, back_}, 0);
+    add({report_, place_}, 1);
+    row->addWidget(holder, 1);
     connect(goOn_, &QPushButton::clicked, this, &PilotResult::goOnWanted);
     connect(another_, &QPushButton::clicked, this, &PilotResult::anotherWanted);
     connect(back_, &QPushButton::clicked, this, &PilotResult::backWanted);
+    connect(report_, &QPushButton::clicked, this, &PilotResult::reportWanted);
     connect(place_, &QPushButton::clicked, this, [this] { emit folderWanted(folder_); });
 }
 

@@ -36,6 +36,7 @@ signals:
     void backWanted();
     void goOnWanted();  ///< asks to continue the unfinished session
     void folderWanted(const QString& folder);
+    void reportWanted();
 
 private:
     void showMatrix(const nlohmann::json& results);
@@ -51,6 +52,7 @@ private:
     QPushButton* goOn_;
     QPushButton* another_;
     QPushButton* back_;
+    QPushButton* report_;
     QPushButton* place_;
 };
 

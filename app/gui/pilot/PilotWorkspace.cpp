@@ -7,6 +7,7 @@
 #include "app/gui/pilot/SessionSide.h"
 #include "app/gui/pilot/SessionStartPage.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
+#include "app/gui/runner/ReportView.h"
 #include "app/gui/study/StudyList.h"
 #include "app/gui/study/StudyPage.h"
 #include "app/gui/theme/Building.h"
@@ -153,6 +154,26 @@ void PilotWorkspace::connectResult() {
     connect(result_, &PilotResult::folderWanted, this, [this](const QString& folder) {
         if (const auto why = openOnDesktop(folder); !why.isEmpty()) result_->say(why);
     });
+    connect(result_, &PilotResult::reportWanted, this, &PilotWorkspace::makeReport);
+    connect(&reports_, &ReportMaker::failed, result_, &PilotResult::say);
+    connect(&reports_, &ReportMaker::done, this, [this](const QString& out) {
+        result_->say(tr("The report is %1.").arg(out));
+        ReportWindow::showReport(*this, out);
+    });
+}
+
+/// A study's report is asked for on its page, which says what it holds; a rehearsal's is drawn beside its folder.
+void PilotWorkspace::makeReport() {
+    if (ofStudy_) {
+        showPage(kHome);
+        if (auto* asks = studies_->findChild<QAction*>("studyReport")) asks->trigger();
+        return;
+    }
+    const QFileInfo folder(session_->start().folder);
+    result_->say(tr("The report is being drawn…"));
+    reports_.make(ReportMaker::Order{.record = folder.absoluteFilePath(),
+                                     .out = folder.absoluteFilePath() + "-report.pdf",
+                                     .assurance = tr("The rehearsal is unchanged.")});
 }
 
 /// The session's path is shown with a session and with its result; a study's lists get the full width.

@@ -7,6 +7,7 @@
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/pilot/SessionConduct.h"
+#include "app/gui/runner/ReportMaker.h"
 #include "app/gui/study/OpenStudy.h"
 
 namespace tacto::gui {
@@ -53,6 +54,7 @@ private:
     [[nodiscard]] QWidget* buildHome();
     void connectSession();
     void connectResult();
+    void makeReport();
     void showPage(Page page);
     void showBeside(Page page);
     void prepareStart(const QString& code);
@@ -69,6 +71,7 @@ private:
     OpenStudy study_;
     OpenStudy rehearsed_;  ///< a rehearsal whose result is read
     QString wanted_;       ///< the session of that result
+    ReportMaker reports_;  ///< of rehearsals; a study's page draws its own
     bool plotOnly_ = false;
     bool ofStudy_ = false;   ///< true if the running session, or the session of the result shown, belongs to a study
     bool reopened_ = false;  ///< true if the result shown was read from its record

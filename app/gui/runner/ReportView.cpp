@@ -52,13 +52,22 @@ ReportView::ReportView(const QString& empty, QWidget* parent)
 QWidget* ReportView::buildRow() {
     auto* holder = new QWidget(this);
     auto* acts = new QHBoxLayout;
+    auto* more = new QHBoxLayout;
     row_ = new QHBoxLayout;
     auto* lines = new TurningRow(
-        [this, acts] { return acts->sizeHint().width() + kLinesApart + row_->minimumSize().width(); }, holder);
+        [this, acts, more] {
+            return acts->sizeHint().width() + more->sizeHint().width() + row_->minimumSize().width() + 2 * kLinesApart;
+        },
+        holder);
     lines->setContentsMargins(0, 0, 0, 0);
     lines->setSpacing(kLinesApart);
     lines->addLayout(acts);
+    lines->addLayout(more);
     lines->addLayout(row_, 1);
+    connect(lines, &TurningRow::turned, this, [acts](bool beside) {
+        // One below the other, the buttons keep their width.
+        acts->setAlignment(beside ? Qt::Alignment() : Qt::AlignLeft);
+    });
     print_ = new QPushButton(tr("Print"), holder);
     print_->setObjectName("printReport");
     print_->setToolTip(
@@ -82,11 +91,10 @@ QWidget* ReportView::buildRow() {
         opens(tr("Open in the PDF viewer"), "openReport",
               tr("Opens the PDF with the desktop's program for it, to sign it there."), [this] { return report_; });
     acts_ = {print_, save, folder, viewer};
-    for (auto* button : acts_) {
-        button->setAutoDefault(false);
-        acts->addWidget(button);
-    }
-    acts->addStretch();
+    print_->setAutoDefault(false);
+    addAll(*acts, {print_, save});
+    addAll(*more, {folder, viewer});
+    more->addStretch();
     zoom_ = buildZoom(holder);
     row_->addWidget(zoom_);
     return holder;

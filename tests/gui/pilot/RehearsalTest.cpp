@@ -126,6 +126,12 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     click(*find<QPushButton>(*pilot, "Open the folder"));
     EXPECT_TRUE(text("pilotNote").contains("This desktop has no program that opens"))
         << text("pilotNote").toStdString();
+    click(*pilot->findChild<QPushButton*>("reportOfResult"));
+    QDialog* report = nullptr;
+    EXPECT_IN_TIME(comesTrue([&] { return (report = pilot->findChild<QDialog*>("reportWindow")) != nullptr; }, 60'000))
+        << text("pilotNote").toStdString();
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / "study-report.pdf"));
+    if (report != nullptr) report->close();
     click(*pilot->findChild<QPushButton*>("backFromResult"));
     EXPECT_EQ(text("rehearsalTitle"), "Another session of this rehearsal");
     EXPECT_TRUE(pilot->findChild<gui::TabbedPage*>()->isVisible()) << "the way to the study";
