@@ -194,6 +194,7 @@ void ProtocolWorkspace::showStep(Step step) {
 
 void ProtocolWorkspace::goTo(Step step) {
     showStep(step);
+    if (step == kSign) return steps_->focusShown();  // in the field for the name Space would not stop
     if (step != kWiring && step != kReference && step != kSettings) return;
     if (auto* first = pages_->currentWidget()->findChild<QLineEdit*>())
         first->setFocus();

@@ -142,6 +142,7 @@ TEST_F(Workspace, TheReportIsSignedInItsSessionAndSaysWhomItNames) {
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(ends());
     click(the<QPushButton>("Sign report…"));
+    EXPECT_EQ(qobject_cast<QLineEdit*>(QApplication::focusWidget()), nullptr) << "Space would not stop there (H6)";
     EXPECT_EQ(says("namedOperator"), "A. Lind");
     EXPECT_EQ(says("namedSample"), "not recorded");
     EXPECT_EQ(says("namedReviewer"), "not recorded");
