@@ -207,7 +207,7 @@ void InstrumentDialog::judge() {
         std::ranges::any_of(all_, [&](const auto& one) { return one.kind == kind && one.name == name; }));
     QString says;
     if (!preset) {
-        says = name.empty() ? QString() : sentence(preset.error());
+        says = sentence(preset.error());
     } else if (preset->expired(utcToday())) {
         says = tr("Its certificate has expired: the instrument would be kept, but its figures would not be used.");
     }

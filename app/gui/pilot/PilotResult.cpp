@@ -1,12 +1,12 @@
 #include "app/gui/pilot/PilotResult.h"
 
 #include <QFrame>
-#include <QRegularExpression>
 #include <cmath>
 
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Pages.h"
+#include "app/gui/theme/ScriptPlace.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/ToolRow.h"
 #include "core/analysis/identification/IdentificationJson.h"
@@ -180,9 +180,8 @@ void PilotResult::show(const RunResult& result, const QString& folder, bool ofSt
                    : outcome.error ? tr("The session ended before there was a result.")
                                    : tr("The session has ended."));
     QStringList why;
-    static const QRegularExpression place(R"(^\S*\.js:\d+: )");  // where in the script: not the operator's concern
     if (outcome.error)
-        why << withOutput(inThePast(sentence(qtext(outcome.error->message).remove(place))),
+        why << withOutput(inThePast(sentence(withoutScriptPlace(qtext(outcome.error->message)))),
                           tr("The output was switched off.")) +
                    tr(" What was answered is on disk.");
     for (const auto& reason : outcome.reasons) {

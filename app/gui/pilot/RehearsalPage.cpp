@@ -182,7 +182,8 @@ void RehearsalPage::judge() {
     seats_->showFor(person(), pace == "own" ? tr("about an hour") : pace == "tenfold" ? tr("some minutes") : QString());
     form_->setFieldEnabled("rehearsalBlocks", !offer_->goesOn() && isWholeSession(*form_));
     const auto lacks = seats_->missing(person());
-    begin_->setEnabled(offer_->isSettled() && lacks.isEmpty() && !folder_->folder().isEmpty());
+    const bool refused = sayRefused(*trouble_, *form_);
+    begin_->setEnabled(offer_->isSettled() && lacks.isEmpty() && !refused && !folder_->folder().isEmpty());
     begin_->setToolTip(
         !lacks.isEmpty() ? lacks : tr("Opens both windows. Nothing is delivered before the checklist is answered."));
     begin_->setText(offer_->goesOn() ? tr("Go on with the rehearsal") : tr("Begin rehearsal"));

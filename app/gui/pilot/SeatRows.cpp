@@ -46,6 +46,13 @@ void followOffer(FieldForm& form, const UnfinishedOffer& offer) {
     for (const char* field : {"protocol", "method", "language"}) form.setFieldEnabled(field, !offer.goesOn());
 }
 
+bool sayRefused(TroubleLine& line, const FieldForm& form) {
+    const auto why = form.refusal();
+    if (!why.isEmpty() || line.property("refused").toBool()) line.say(why);
+    line.setProperty("refused", !why.isEmpty());
+    return !why.isEmpty();
+}
+
 bool isWholeSession(const FieldForm& form) { return form.text("protocol") == kWholeSession; }
 
 SeatRows::SeatRows(FieldForm& form)

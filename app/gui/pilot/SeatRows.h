@@ -18,6 +18,8 @@ namespace tacto::gui {
 [[nodiscard]] std::vector<FormField> procedureFields();
 /// Shows the settings of the interrupted session if that session is to continue.
 void followOffer(FieldForm& form, const UnfinishedOffer& offer);
+/// Says in `line` which typed value is refused, and takes it back once it is accepted. Returns true if one is refused.
+bool sayRefused(TroubleLine& line, const FieldForm& form);
 /// False if the session finds only thresholds.
 [[nodiscard]] bool isWholeSession(const FieldForm& form);
 

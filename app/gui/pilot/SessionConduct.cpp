@@ -10,6 +10,7 @@
 #include "app/gui/pilot/OperatorStrip.h"
 #include "app/gui/pilot/ParticipantWindow.h"
 #include "app/gui/pilot/SeatRows.h"
+#include "app/gui/theme/ScriptPlace.h"
 #include "app/gui/theme/Text.h"
 #include "app/run/StudyWords.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
@@ -410,7 +411,8 @@ void SessionConduct::refuse(const QString& why) {
 void SessionConduct::finish(const std::shared_ptr<const FinishedRun>& run) {
     if (!running_ || confirming_ || run->number != run_) return;  // a run of another page
     const auto& outcome = run->result.outcome;
-    if (outcome.error && run->result.session.empty()) return refuse(sentence(*outcome.error));
+    if (outcome.error && run->result.session.empty())
+        return refuse(sentence(withoutScriptPlace(qtext(outcome.error->message))));
     leaveSeats();
     emit ended(run);
     emit attentionWanted();

@@ -150,7 +150,8 @@ void SessionStartPage::judge() {
     const bool chosen = offer_->isSettled();
     auto lacks = devices_->missing();
     if (lacks.isEmpty()) lacks = seats_->missing(!virtual_);
-    begin_->setEnabled(whole && chosen && lacks.isEmpty());
+    const bool refused = sayRefused(*trouble_, *form_);
+    begin_->setEnabled(whole && chosen && lacks.isEmpty() && !refused);
     begin_->setToolTip(!chosen            ? tr("First choose what happens to the interrupted session.")
                        : !lacks.isEmpty() ? lacks
                        : !whole           ? tr("%1 of %2 questions of the checklist are answered; each is needed.")

@@ -20,6 +20,7 @@
 #include "app/gui/theme/FieldForm.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/RecordColumns.h"
+#include "app/gui/theme/ScriptPlace.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/TableContent.h"
@@ -168,6 +169,7 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
         pages_->offer(*declaration_);
     }
     path_->showNoRun(pages_->form().hasReference());
+    showBench();  // it may have been opened before this page was made
     // Keeps a step before the run if it was chosen while the script was read; a result belongs to the old protocol.
     const auto chosen = Step(steps_->shown());
     const bool stays = !seen_.empty() && (chosen == kWiring || (chosen == kReference && pages_->form().hasReference()));
@@ -205,7 +207,11 @@ void ProtocolWorkspace::goTo(Step step) {
 void ProtocolWorkspace::judge() {
     showSetup();
     withdraw();
-    panel_->setReady(declaration_.has_value(), obstacle_, byProfile_);
+    const auto wrong = refusal();
+    if (std::exchange(refused_, !wrong.isEmpty()) || refused_)
+        setObstacle(wrong, false);
+    else
+        panel_->setReady(declaration_.has_value(), obstacle_, byProfile_);
     previewLater_.start();
 }
 
@@ -217,6 +223,12 @@ void ProtocolWorkspace::showSetup() {
 void ProtocolWorkspace::withdraw() {
     asked_.withdraw();
     panel_->withdrawQuestion();
+}
+
+QString ProtocolWorkspace::refusal() const {
+    if (auto wrong = pages_->form().refusal(); !wrong.isEmpty() || !declaration_) return wrong;
+    const auto uris = devicesOf(pages_->wiring().devices());
+    return uris ? QString() : sentence(uris.error());
 }
 
 /// A run would end without any result if the safety gate refuses its strongest command, or if an answer that the
@@ -234,8 +246,9 @@ void ProtocolWorkspace::preview() {
     pages_->form().setKnown(area ? std::set<std::string>{"area"} : std::set<std::string>{});
     const bool drives = declaration_ && declaration_->needs.contains(Role::Stimulator);
     const auto refused = pages_->worst().judge(controller_, pages_->form().read(), drives);
-    const auto unanswered = pages_->form().unanswered();
-    setObstacle(unanswered.isEmpty() ? refused : unanswered, unanswered.isEmpty());
+    auto wrong = refusal();
+    if (wrong.isEmpty()) wrong = pages_->form().unanswered();
+    setObstacle(wrong.isEmpty() ? refused : wrong, wrong.isEmpty());
 }
 
 Result<RunOrder> ProtocolWorkspace::order() {
@@ -252,7 +265,8 @@ void ProtocolWorkspace::runAsked() {
     if (anotherRuns()) return panel_->say(tr("Another protocol is running. Wait for its end or stop it (Esc)."));
     auto asked = order();
     if (!asked) {
-        panel_->say(sentence(asked.error()));
+        const auto wrong = refusal();
+        wrong.isEmpty() ? panel_->say(sentence(asked.error())) : setObstacle(wrong, false);
         const bool inWiring = !pages_->wiring().refused().isEmpty();
         const auto part = pages_->form().goToRefused();
         if (part || inWiring) showStep(part ? (*part ? kReference : kSettings) : kWiring);
@@ -324,7 +338,8 @@ void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
     if (watched) steps_->focusShown();  // the progress bar had the focus, and is hidden now
     if (!error) return;
     if (run->result.session.empty())
-        panel_->say(withOutput(inThePast(sentence(*error)), tr("The output was switched off.")));
+        panel_->say(withOutput(inThePast(sentence(withoutScriptPlace(qtext(error->message)))),
+                               tr("The output was switched off.")));
     if (editor_ != nullptr && editor_->isVisible() && run->result.outcome.line > 0)
         editor_->showError(run->result.outcome.line, QString::fromStdString(error->message));
 }

@@ -81,6 +81,8 @@ private:
     void withdraw();
     void preview();
     void setObstacle(const QString& why, bool byProfile);
+    /// Why a typed value is refused: of the settings, else of the wiring. Empty: all can be read.
+    [[nodiscard]] QString refusal() const;
     void runNow();
     [[nodiscard]] bool anotherRuns() const;
     void ended(const std::shared_ptr<const FinishedRun>& run);
@@ -103,6 +105,7 @@ private:
     std::shared_ptr<const FinishedRun> last_;
     bool running_ = false;
     bool wantsReport_ = false;  ///< the report is to be shown once it is drawn
+    bool refused_ = false;      // a typed value is refused
     std::set<Step> seen_;       // the steps seen since this protocol was chosen
     bool plotOnly_ = false;
     std::uint64_t run_ = 0;  ///< number of the run

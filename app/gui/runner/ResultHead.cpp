@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/gui/theme/Building.h"
+#include "app/gui/theme/ScriptPlace.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
@@ -15,14 +16,6 @@
 namespace tacto::gui {
 
 namespace {
-
-/// Returns a script's error with the place in the script at the end: "The load is open. (check.js:12)".
-QString whyAndWhere(const QString& error, const QString& meaning) {
-    static const QRegularExpression place(R"(^(?:\S*/)?([^/\s]+\.js:\d+): )");
-    const auto found = place.match(error);
-    const auto said = sentence(error.mid(found.capturedLength())) + meaning;
-    return found.hasMatch() ? QString("%1 (%2)").arg(said, found.captured(1)) : said;
-}
 
 constexpr int kBesideBlock = 16;
 constexpr int kMaxBlocks = 3;  // the largest height of the reasons; beyond it they scroll
@@ -86,13 +79,14 @@ void ResultHead::show(const FinishedRun& run) {
     if (outcome.error) {
         error_ = inThePast(QString::fromStdString(outcome.error->message));
         const bool saysSo = error_.contains(tr("The output "));
-        why << whyAndWhere(error_, saysSo ? QString() : tr(" The output was switched off."));
+        why << sentence(withoutScriptPlace(error_)) + (saysSo ? QString() : tr(" The output was switched off."));
+        toScript_->setToolTip(tr("Opens the script at the line at which it ended: %1.").arg(scriptPlace(error_)));
     }
     // The error of a stopped run is also among its reasons; it is shown once.
     for (const auto& reason : outcome.reasons) {
-        if (!outcome.error || reason != outcome.error->message) why << withOhmSigns(qtext(reason));
+        if (!outcome.error || reason != outcome.error->message) why << withOhmSigns(withoutScriptPlace(qtext(reason)));
     }
-    for (const auto& trouble : run.result.troubles) why << withOhmSigns(qtext(trouble.message));
+    for (const auto& trouble : run.result.troubles) why << withOhmSigns(withoutScriptPlace(qtext(trouble.message)));
     if (why.isEmpty()) why << tr("The protocol ran to its end; it judges nothing.");
     why_->setText(withSigns(keptTogether(titled(why.takeFirst()))));
     QStringList marks;

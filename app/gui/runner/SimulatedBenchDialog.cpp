@@ -100,7 +100,9 @@ void SimulatedBenchDialog::judge() {
     form_->setFieldEnabled("faultAt", form_->text("fault") != "0");
     const auto chosen = form_->read();
     open_->setEnabled(chosen && load);
-    says_->setText(open_->isEnabled() ? uris(chosen->parameters).join('\n') : QString());
+    says_->setText(open_->isEnabled() ? uris(chosen->parameters).join('\n')
+                   : chosen           ? sentence(load.error())
+                                      : form_->refusal());
 }
 
 void SimulatedBenchDialog::take() {

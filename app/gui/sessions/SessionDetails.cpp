@@ -13,6 +13,7 @@
 #include "app/gui/theme/PlotLegend.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/RecordColumns.h"
+#include "app/gui/theme/ScriptPlace.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/VerdictBlock.h"
@@ -226,7 +227,8 @@ QString SessionDetails::aboutHtml() const {
         const auto found = verdict.verdict == "none" ? tr("no verdict") : qtext(verdict.verdict);
         html += QString("<p><b>%1: %2</b>")
                     .arg(procedureText(verdict.subject).toHtmlEscaped(), verdictText(found).toHtmlEscaped());
-        for (const auto& reason : verdict.reasons) html += "<br>" + sentence(qtext(reason)).toHtmlEscaped();
+        for (const auto& reason : verdict.reasons)
+            html += "<br>" + sentence(withoutScriptPlace(qtext(reason))).toHtmlEscaped();
         html += "</p>";
     }
     QStringList marks;

@@ -10,6 +10,7 @@
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/Labels.h"
+#include "app/gui/theme/ScriptPlace.h"
 #include "app/gui/theme/Text.h"
 #include "app/report/NumberText.h"
 #include "core/session/SessionLabels.h"
@@ -172,7 +173,7 @@ void SessionOverview::showHead() {
     title_->setToolTip(qtext(session_->path.string()));
     QStringList why;
     if (!session_->verdicts.empty())
-        for (const auto& reason : session_->verdicts.back().reasons) why << sentence(qtext(reason));
+        for (const auto& reason : session_->verdicts.back().reasons) why << sentence(withoutScriptPlace(qtext(reason)));
     whole_ = why.isEmpty() ? tr("%1, %2%3.")
                                  .arg(beganText(entryOf(*session_).began), durationText(toSeconds(session_->length)),
                                       session_->about.simulated ? tr(", simulated") : QString())

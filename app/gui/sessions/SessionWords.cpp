@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "app/gui/theme/ScriptPlace.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/VerdictBlock.h"
@@ -213,7 +214,8 @@ QList<SessionMoment> whatHappened(const ReadSession& session) {
         lines.push_back({event.at, eventSentence(event), event.name == kOperatorMarkEvent});
     for (const auto& line : session.log) lines.push_back({line.at, sentence(qtext(textOr(line.body, "text"))), false});
     for (const auto& verdict : session.verdicts) {
-        const auto why = verdict.reasons.empty() ? QString() : ": " + qtext(verdict.reasons.front());
+        const auto why =
+            verdict.reasons.empty() ? QString() : ": " + withoutScriptPlace(qtext(verdict.reasons.front()));
         lines.push_back({verdict.at, sentence(QObject::tr("Verdict %1%2").arg(qtext(verdict.verdict), why)), false});
     }
     std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.at < b.at; });

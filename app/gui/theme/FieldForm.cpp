@@ -426,6 +426,18 @@ QString FieldForm::unanswered() const {
     return {};
 }
 
+QString FieldForm::refusal() const {
+    for (const auto& field : fields_) {
+        const auto* rows = field.parameter.reference ? referenceRows_ : settingsRows_;
+        const bool asked = rows->isRowVisible(field.row) && field.editor->isEnabledTo(field.row);
+        if (field.why.isEmpty() || lacks(field) || !asked) continue;
+        const auto label = QString("“%1”").arg(qtext(field.parameter.label).remove('&'));
+        const auto said = tr("This");
+        return field.why.startsWith(said + ' ') ? label + field.why.mid(said.size()) : label + ": " + field.why;
+    }
+    return {};
+}
+
 QString FieldForm::summary() const {
     QStringList said;
     int changed = 0;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/gui/theme/Building.h"
+#include "app/gui/theme/ScriptPlace.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/RecordingLine.h"
@@ -62,7 +63,7 @@ void NoticeBanner::sayEnd(const std::shared_ptr<const FinishedRun>& run) {
     const auto name = procedureText(run->order.script.name);
     const auto verdict = qtext(run->result.verdict());
     const auto& error = run->result.outcome.error;
-    const auto why = error ? sentence(*error) : QString();
+    const auto why = error ? sentence(withoutScriptPlace(qtext(error->message))) : QString();
     if (error && verdict.isEmpty())
         return line_.say(withOutput(tr("%1 ended by an error: %2").arg(name, why), tr("Output is off.")), true);
     const auto output = qtext(outputAfter(saysMayBeOn(why) ? std::optional(FaultCause::StuckOn) : std::nullopt));
