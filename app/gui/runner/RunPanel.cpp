@@ -103,7 +103,8 @@ void RunPanel::buildWords() {
     column->addWidget(closed_);
     setTone(*closed_, Tone::Quiet);
     openAgain_ =
-        addButton(tr("Open the bench again"), "openAgain", tr("Opens the same devices; the output stays off."));
+        addButton(tr("Open the bench again"), "openAgain",
+                  tr("Opens the same devices; the output stays off. A run that came to its end does it by itself."));
     connect(openAgain_, &QPushButton::clicked, this, &RunPanel::openAgainWanted);
     question_ = buildQuestion();
     column->addWidget(question_);
@@ -151,7 +152,7 @@ void RunPanel::sayHowFar(const QString& format, const QString& left) {
 
 void RunPanel::sayLeft() {
     const auto more = running_     ? tr("Esc ends the run; what was recorded is kept.")
-                      : benchOpen_ ? tr("Running closes the open bench.")
+                      : benchOpen_ ? tr("Running closes the open bench and opens it again afterwards.")
                                    : QString();
     left_->setText(more.isEmpty() ? howLong_ : howLong_ + '\n' + more);
 }
@@ -178,7 +179,8 @@ void RunPanel::setReady(bool ready, const QString& obstacle, bool byProfile) {
     run_->setToolTip(!obstacle.isEmpty()
                          ? (Qt::mightBeRichText(obstacle) ? obstacle.toHtmlEscaped() : obstacle)
                          : tr("Opens the devices, arms on the declared load and runs (F5). Esc stops. A bench that is "
-                              "open under Live is closed first."));
+                              "open under Live is closed first, and opened again after a run that came to its end; its "
+                              "output stays off."));
     showButtons();
 }
 

@@ -3,6 +3,7 @@
 #include <QPainter>
 #include <QScreen>
 #include <QSettings>
+#include <QStyle>
 #include <QTimer>
 #include <QToolButton>
 #include <algorithm>
@@ -233,25 +234,32 @@ void DockColumn::apply() {
 /// Each open dock first gets a few lines. Then the docks get what they want, the first one first; the last one also
 /// gets the rest. If no dock is cut off, nothing changes.
 void DockColumn::share() {
-    QList<QDockWidget*> open;
+    QList<QDockWidget*> all;
     QList<int> heights;
-    int left = 0;
+    const int between = window_.style()->pixelMetric(QStyle::PM_DockWidgetSeparatorExtent, nullptr, &window_);
+    // The height of the column, not of its docks: those may leave a part of it blank.
+    int left = (window_.centralWidget() == nullptr ? 0 : window_.centralWidget()->height()) + between;
     bool cut = false;
+    const FoldingDock* last = nullptr;
     for (auto* dock : docks_) {
-        if (!dock->isVisible() || dock->isFloating() || dock->folded()) continue;
-        open << dock;
-        heights << leastOf(*dock, dock->wantedHeight());
-        left += dock->height() - heights.back();
+        const bool here = window_.dockWidgetArea(dock) == Qt::RightDockWidgetArea && !dock->isFloating();
+        if (!here || !dock->isVisible()) continue;
+        all << dock;
+        heights << (dock->folded() ? dock->maximumHeight() : leastOf(*dock, dock->wantedHeight()));
+        left -= heights.back() + between;
+        if (dock->folded()) continue;
+        last = dock;
         cut = cut || dock->height() < dock->wantedHeight();
     }
     if (!cut) return;
-    for (qsizetype i = 0; i < open.size(); ++i) {
-        const int wanted = static_cast<FoldingDock*>(open[i])->wantedHeight() - heights[i];
-        const int more = i + 1 < open.size() ? std::min(wanted, left) : left;
-        heights[i] += std::max(more, 0);
-        left -= std::max(more, 0);
+    for (qsizetype i = 0; i < all.size(); ++i) {
+        const auto* dock = static_cast<FoldingDock*>(all[i]);
+        if (dock->folded()) continue;
+        const int more = std::max(0, dock == last ? left : std::min(dock->wantedHeight() - heights[i], left));
+        heights[i] += more;
+        left -= more;
     }
-    window_.resizeDocks(open, heights, Qt::Vertical);
+    window_.resizeDocks(all, heights, Qt::Vertical);
 }
 
 /// Moves a floating dock that covers the safety bar: to below the bar, else above it, or back into the column if the

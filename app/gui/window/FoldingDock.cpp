@@ -1,6 +1,7 @@
 #include "app/gui/window/FoldingDock.h"
 
-#include <QEvent>
+#include <QApplication>
+#include <QMouseEvent>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <algorithm>
@@ -47,6 +48,7 @@ FoldingDock::FoldingDock(const QString& title, const QString& iconName, const QS
     toggle_->setFocusPolicy(Qt::TabFocus);
     connect(toggle_, &QToolButton::clicked, this, [this] { fold(!folded_); });
     setTextSize(*title_, TextSize::Body, true);
+    header_->installEventFilter(this);
     setTitleBarWidget(header_);
     dress();
     onLookChange(*this, [this] {
@@ -116,7 +118,23 @@ void FoldingDock::makeRoomForBar(bool shown) {
     inside_->layout()->setContentsMargins(0, 0, shown ? 0 : kDockPadding, 0);
 }
 
+/// A click folds and unfolds; a drag moves the dock, and a double click lets it float.
+void FoldingDock::noteHeader(const QEvent& event) {
+    const auto type = event.type();
+    if (type == QEvent::MouseButtonDblClick) return fold(!folded_);  // takes its first click back
+    if (type != QEvent::MouseButtonPress && type != QEvent::MouseButtonRelease) return;
+    const auto& mouse = static_cast<const QMouseEvent&>(event);
+    const auto from = std::exchange(pressed_, std::nullopt);
+    if (mouse.button() != Qt::LeftButton) return;
+    const auto at = mouse.globalPosition().toPoint();
+    if (type == QEvent::MouseButtonPress)
+        pressed_ = at;
+    else if (from && (at - *from).manhattanLength() < QApplication::startDragDistance())
+        fold(!folded_);
+}
+
 bool FoldingDock::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == header_) noteHeader(*event);
     if (watched == bar_ && (event->type() == QEvent::Show || event->type() == QEvent::Hide))
         makeRoomForBar(event->type() == QEvent::Show);
     if (watched == inside_ && (event->type() == QEvent::LayoutRequest || event->type() == QEvent::Resize))

@@ -1,10 +1,11 @@
-// FoldingDock.h - a dock with its own header: icon, title, and a button that folds the dock to its header. It can be
-// moved and floats like any other dock.
+// FoldingDock.h - a dock with its own header: icon, title, and a button that folds the dock to its header; so does a
+// click on the header. It can be moved and floats like any other dock.
 #pragma once
 
 #include <QDockWidget>
 #include <QLabel>
 #include <QToolButton>
+#include <optional>
 
 namespace tacto::gui {
 
@@ -43,6 +44,7 @@ private:
     void limitHeight();
     void noteContent();
     void makeRoomForBar(bool shown);
+    void noteHeader(const QEvent& event);
 
     QString icon_;
     QWidget* header_;
@@ -54,6 +56,7 @@ private:
     QWidget* inside_ = nullptr;  ///< the content of the scroll area, or content that scrolls by itself
     QWidget* bar_ = nullptr;     ///< the content's scroll bar
     int wanted_ = 0;
+    std::optional<QPoint> pressed_;  ///< where on the screen the header was pressed and not yet released
 };
 
 }  // namespace tacto::gui

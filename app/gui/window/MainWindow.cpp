@@ -10,7 +10,6 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QSettings>
-#include <QSplitter>
 #include <QStatusBar>
 #include <QToolBar>
 #include <QToolButton>
@@ -104,7 +103,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     setDockOptions(AllowNestedDocks | AllowTabbedDocks);  // not animated: another move would interrupt it
     // Read before any widget exists: a later change of theme restyles each widget, which takes very long.
     const QSettings settings;
-    applyTextSize(settings.value("textSize", 100).toInt());
+    applyTextSize(settings.value("textSize", kUsualText).toInt());
     applyTheme(settings.value("theme").toString() == "dark" ? Theme::Dark : Theme::Light);
     keys_ = new StopKeys(
         [this](const char* by) {
@@ -180,6 +179,9 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     frame_.setObjectName("frame");
     connect(&controller_, &BenchController::changed, this, &MainWindow::stir);
     connect(&controller_, &BenchController::failed, this, &MainWindow::stir);
+    connect(&controller_, &BenchController::changed, this, &MainWindow::followBench);
+    connect(&controller_, &BenchController::finished, this,
+            [this](const std::shared_ptr<const FinishedRun>& run) { reopen(*run); });
     qApp->installEventFilter(this);
     stir();
     showTitle();
@@ -306,6 +308,26 @@ void MainWindow::tick() {
     const bool measured = measurements_->isVisible();
     workspaces_->refresh(telemetry, measured, inSight());
     if (measured) summary_->refresh(telemetry);
+}
+
+void MainWindow::followBench() {
+    const auto before = std::exchange(activity_, controller_.activity());
+    if (activity_ == before) return;
+    if (activity_ == Activity::Closed) reopens_ = false;
+    if (activity_ != Activity::Live || std::exchange(reopens_, false)) return;
+    const bool hadFocus = workspaces_->isAncestorOf(QApplication::focusWidget());
+    showWorkspace(Workspaces::kLive);
+    if (hadFocus) workspaces_->takeFocus();  // not into a text field, in which Space would not stop
+}
+
+/// After an error or a stop it stays closed until a person opens it, and after a session of a study.
+void MainWindow::reopen(const FinishedRun& run) {
+    const auto* pilot = workspaces_->pilot();
+    if (run.result.outcome.error || !controller_.closedByRun() || (pilot != nullptr && pilot->running())) return;
+    QTimer::singleShot(0, this, [this] {  // first the workspaces show the result
+        reopens_ = controller_.closedByRun();
+        controller_.openAgain();
+    });
 }
 
 int MainWindow::workspace() const { return workspaces_->currentIndex(); }
@@ -455,6 +477,34 @@ void MainWindow::showDock(const QString& name) {
 void MainWindow::setTheme(Theme theme) {
     applyTheme(theme);
     QSettings().setValue("theme", theme == Theme::Dark ? "dark" : "light");
+}
+
+void MainWindow::setTextPercent(int percent) {
+    QSettings settings;
+    const int before = settings.value("textSize", kUsualText).toInt();
+    settings.setValue("textSize", percent);
+    if (before == kUsualText && percent != before) {
+        usual_ = UsualLayout{size(), {}, saveState(), {}};
+        for (auto* splitter : findChildren<QSplitter*>()) usual_->columns.emplace_back(splitter, splitter->sizes());
+    }
+    applyTextSize(percent);
+    if (percent != kUsualText)
+        return QTimer::singleShot(0, this, [this] {
+            if (usual_) usual_->larger = size();
+        });
+    if (!usual_) return;
+    // After the parts are laid out for the text, and have asked for other sizes themselves.
+    QTimer::singleShot(0, this, [this, usual = *std::exchange(usual_, std::nullopt)] {
+        QTimer::singleShot(0, this, [this, usual] { layOutAsUsual(usual); });
+    });
+}
+
+void MainWindow::layOutAsUsual(const UsualLayout& usual) {
+    if (size() == usual.larger) resize(usual.size);
+    restoreState(usual.docks);
+    for (const auto& [splitter, sizes] : usual.columns)
+        if (splitter) splitter->setSizes(sizes);
+    enterDocks();
 }
 
 void MainWindow::restore() {

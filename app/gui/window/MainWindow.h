@@ -6,9 +6,13 @@
 
 #include <QElapsedTimer>
 #include <QMainWindow>
+#include <QPointer>
+#include <QSplitter>
 #include <QTimer>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "app/gui/calibrate/CalibrationBook.h"
 #include "app/gui/controller/BenchController.h"
@@ -69,6 +73,9 @@ public:
     /// Opens the docks with the named dock ("deviceDock") unfolded.
     void showDock(const QString& name);
     void setTheme(Theme theme);
+    static constexpr int kUsualText = 100;
+    /// Sets and keeps the text size. Back at kUsualText, docks, columns and window have the sizes that they had there.
+    void setTextPercent(int percent);
     /// Shows only safety bar and plot, without menus, tools and paths; STOP and the keys of the menus still work.
     void showPlotOnly(bool only);
     /// Shows STOP in a small window above the windows of other programs.
@@ -99,6 +106,10 @@ private:
     void attend(const Telemetry& telemetry);
     void standIn();
     void showTitle();
+    /// An opened bench leads to Live, unless it is the one that a run had closed: then the result stays in sight.
+    void followBench();
+    /// Opens the bench again that a run has closed and then come to its end.
+    void reopen(const FinishedRun& run);
     /// Shows only this workspace, without docks and bars, while a pilot session hides what is delivered.
     void noteBlind();
     void enterDocks();
@@ -127,6 +138,16 @@ private:
     ArmQuestion* arming_ = nullptr;
     WorkspaceRail* rail_ = nullptr;
     bool hasRoomForDocks_ = true, hasRoomForAllDocks_ = true;
+    Activity activity_ = Activity::Closed;
+    /// The layout at the usual text size, kept while the text is larger.
+    struct UsualLayout {
+        QSize size, larger;  ///< of the window, and as the larger text left it
+        QByteArray docks;
+        std::vector<std::pair<QPointer<QSplitter>, QList<int>>> columns;
+    };
+    void layOutAsUsual(const UsualLayout& usual);
+    std::optional<UsualLayout> usual_;
+    bool reopens_ = false;      ///< the bench that a run closed is being opened again
     bool awaitsFrame_ = false;  ///< the window system has not yet added its frame
     QTimer frame_{this};
     QElapsedTimer stirred_;  ///< time since something happened

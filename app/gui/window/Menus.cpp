@@ -1,5 +1,6 @@
 #include "app/gui/window/Menus.h"
 
+#include <QActionGroup>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
@@ -95,15 +96,7 @@ void Menus::addView(const QActionGroup& workspaces, DockColumn& docks) {
         view->addAction(dock->windowTitle(), &docks, [&docks, dock] { docks.show(*dock); });
     view->addAction(tr("&Messages"), &line_, &RecordingLine::showLog);
     view->addSeparator();
-    view->addAction(tr("&Light"), &window_, [this] { window_.setTheme(Theme::Light); });
-    view->addAction(tr("&Dark"), &window_, [this] { window_.setTheme(Theme::Dark); });
-    auto* size = view->addMenu(tr("&Text size"));
-    for (const int percent : {100, 125, 150, 200})
-        size->addAction(tr("%1 %").arg(percent), &window_, [this, percent] {
-            QSettings().setValue("textSize", percent);
-            applyTextSize(percent);
-            line_.say(tr("Text at %1 %.").arg(percent));
-        });
+    addLooks(*view);
     auto* plotOnly = view->addAction(tr("Plot &only"), QKeySequence(Qt::Key_F11), &window_, &MainWindow::showPlotOnly);
     plotOnly->setCheckable(true);
     plotOnly->setObjectName("plotOnly");
@@ -117,6 +110,31 @@ void Menus::addView(const QActionGroup& workspaces, DockColumn& docks) {
         above->setText(tr("STOP above other windows (not on Wayland)"));
     }
     view->addAction(tr("Reset la&yout"), &window_, &MainWindow::resetLayout);
+}
+
+/// Theme and text size; each has a tick at what is set.
+void Menus::addLooks(QMenu& view) {
+    auto* size = new QMenu(tr("&Text size"), &view);
+    auto *themes = new QActionGroup(this), *sizes = new QActionGroup(this);
+    const auto add = [this](QMenu& menu, QActionGroup& group, const QString& text, bool set, auto task) {
+        auto* action = menu.addAction(text, &window_, task);
+        action->setCheckable(true);
+        action->setChecked(set);
+        group.addAction(action);
+        return action;
+    };
+    for (const auto& [text, theme] : {std::pair(tr("&Light"), Theme::Light), {tr("&Dark"), Theme::Dark}}) {
+        auto* action = add(view, *themes, text, false, [this, theme = theme] { window_.setTheme(theme); });
+        connect(&view, &QMenu::aboutToShow, action,
+                [action, theme = theme] { action->setChecked(currentTheme() == theme); });
+    }
+    view.addMenu(size);
+    const int now = QSettings().value("textSize", MainWindow::kUsualText).toInt();
+    for (const int percent : {MainWindow::kUsualText, 125, 150, 200})
+        add(*size, *sizes, tr("%1 %").arg(percent), percent == now, [this, percent] {
+            window_.setTextPercent(percent);
+            line_.say(tr("Text at %1 %.").arg(percent));
+        });
 }
 
 void Menus::addHelp() {

@@ -20,6 +20,7 @@ public:
 private:
     void addBench();
     void addView(const QActionGroup& workspaces, DockColumn& docks);
+    void addLooks(QMenu& view);
     void addHelp();
     void showAbout();
 
