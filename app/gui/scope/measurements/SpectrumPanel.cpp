@@ -107,9 +107,7 @@ SpectrumPanel::SpectrumPanel(QWidget* parent)
     listed_->setToolTip(tr("The peaks with frequency and level, highest first."));
     listed_->setChecked(true);
     list_->setAccessibleName(tr("Peaks of the spectrum"));
-    list_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-    list_->setTabKeyNavigation(false);  // Tab leaves it
-    list_->verticalHeader()->hide();
+    makeReadOnly(*list_);
     list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     list_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
     connect(listed_, &QCheckBox::toggled, list_, &QWidget::setVisible);

@@ -43,9 +43,9 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
     : QWidget(parent),
       traits_{Hertz(2e6), 1'000'000, 8, Hertz(0)},
       kind_(combo(tr("Kind of trigger"), tr("What a capture waits for."))),
-      fields_(new FieldForm(this)),
       source_(combo(tr("Trigger source"), tr("The channel that is watched."))),
       level_(new QuantitySpin("V", kLowestLevel, kMaxVolts, this)),
+      fields_(new FieldForm(this)),
       preTrigger_(new QSpinBox(this)),
       length_(combo(tr("Record length"), tr("The time that one capture covers. To measure an interval it must hold two "
                                             "trains."))),

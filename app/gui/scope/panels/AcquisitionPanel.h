@@ -69,10 +69,10 @@ private:
     double wantedRate_hz_ = 0;  ///< the rate the user chose, even if the open oscilloscope lacks it; 0: automatic
     SampleTrigger trigger_{.level = 1, .upper = 2};
     QComboBox* kind_;
-    FieldForm* fields_;
-    QFormLayout* form_ = nullptr;
     QComboBox* source_;
     QuantitySpin* level_;
+    FieldForm* fields_;
+    QFormLayout* form_ = nullptr;
     QSpinBox* preTrigger_;
     QComboBox* length_;
     QComboBox* rate_;
