@@ -268,7 +268,7 @@ constexpr std::string_view kShortest = "shortest interval", kLongest = "longest 
                            kMethod = "method of detection", kTrials = "trials of each condition in a block",
                            kEmpty = "empty trials in a block", kComparison = "Weber fraction of strength",
                            kPain = "pain ceiling", kAge = "lowest age",
-                           kOwn = "own questions of the exclusion checklist";
+                           kOwn = "own questions of the exclusion checklist", kReads = "words of the participant";
 constexpr SettingName kNames[] = {
     {"procedure.interval_min_s", kShortest, kShortest},
     {"procedure.interval_max_s", kLongest, kLongest},
@@ -281,6 +281,7 @@ constexpr SettingName kNames[] = {
     {"pain_ceiling", kPain, kPain},
     {"age_min", kAge, kAge},
     {"exclusions", kOwn, kOwn},
+    {"words", kReads, kReads},
     {"train.shape", "shape of the pulses"},
     {"train.width_us", "width of a phase"},
     {"train.gap_us", "gap between the phases"},

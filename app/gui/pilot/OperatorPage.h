@@ -77,7 +77,7 @@ private:
     bool vibrates_ = false;  ///< true if a massager delivers
     bool virtual_ = false;   ///< true if nobody is asked anything
     PilotCounts kept_;
-    Instant at_{0};                     ///< the time of the newest telemetry
+    Instant at_{0};                      ///< the time of the newest telemetry
     std::optional<PilotPrompt> theirs_;  ///< the question at the participant's screen
     quint64 theirsId_ = 0;
     QElapsedTimer phaseSince_;

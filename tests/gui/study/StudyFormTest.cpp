@@ -74,10 +74,12 @@ TEST(StudyForm, LeftAsItIsItHoldsTheDefaults) {
     expected.ageMin = kAgeMin;
     expected.limits = read->limits;
     expected.scripts = read->scripts;
+    expected.words = read->words;
     expected.procedure = procedureOf(shippedProfile().value(), expected, {});
     EXPECT_EQ(*read, expected);
     EXPECT_FALSE(read->limits.empty());
     EXPECT_FALSE(read->scripts.empty());
+    EXPECT_GE(read->words.size(), 2U);
     EXPECT_EQ(read->procedure->intervalMin_s, 0.5);
     EXPECT_EQ(read->procedure->intervalMax_s, 2);
     form.set("procedure.method", "staircase");
