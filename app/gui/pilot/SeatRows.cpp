@@ -143,7 +143,7 @@ void SeatRows::showFor(bool person, const QString& lasts) {
     about_->setText(
         !person
             ? QObject::tr("The virtual participant answers every question of both people, and the session takes %1. "
-                          "This page shows what happens; where it is not blind, Live and Oscilloscope show what is "
+                          "The next page shows what happens; where it is not blind, Live and Oscilloscope show what is "
                           "delivered.")
                   .arg(lasts.isEmpty() ? QObject::tr("seconds") : lasts)
         : ScreenChoice::isOnly()

@@ -110,6 +110,7 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
     if (const auto& approved = study.settings().procedure) form_->set("method", qtext(nameOf(approved->method)));
     const auto unfinished = unfinishedOf(study, participant);
     say(unfinished ? QString() : sentence(unfinished.error()));
+    offer_->offer({});  // forgets an earlier choice
     offer_->offer(unfinished ? *unfinished : std::nullopt);
     title_ = qtext(study.settings().title);
     head_->setText(tr("A session of %1").arg(qtext(code_)));

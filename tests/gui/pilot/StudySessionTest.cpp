@@ -177,7 +177,12 @@ TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
     ASSERT_IN_TIME(comesTrue([this] { return !nothingWasMade(); }, 20'000));
     window.controller().stop("operator (STOP)");
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
-    click(*pilot->findChild<QPushButton*>("backFromResult"));
+    auto* goOn = pilot->findChild<QPushButton*>("goOnWithSession");
+    ASSERT_IN_TIME(comesTrue([&] { return goOn->isVisible(); }, 20'000)) << "once the study is open again";
+    click(*goOn);
+    ASSERT_TRUE(page().isVisible());
+    EXPECT_TRUE(page().findChild<QRadioButton*>("goOnWithIt")->isChecked()) << "it goes on with it";
+    click(*pilot->findChild<QPushButton*>("backToStudy"));
     ASSERT_NO_FATAL_FAILURE(seeList());
     EXPECT_EQ(cell(0, 5), "interrupted, can continue");
     EXPECT_FALSE(showResult().isEnabled());
