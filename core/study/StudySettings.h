@@ -94,7 +94,7 @@ struct StudyProcedure {
     double intervalMax_s = 2;    ///< T_max
     DetectionMethod method = DetectionMethod::Quest;
     std::string conditionsSha256{};  ///< hash of conditions, assignment, polarity, load range and ceilings
-    bool comparison = false;         ///< threshold sessions also measure the Weber fraction of strength
+    bool comparison = false;         ///< sessions also measure the Weber fraction of strength
     bool operator==(const StudyProcedure&) const = default;
 };
 

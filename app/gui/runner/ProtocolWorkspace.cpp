@@ -227,8 +227,7 @@ void ProtocolWorkspace::withdraw() {
 
 QString ProtocolWorkspace::refusal() const {
     if (auto wrong = pages_->form().refusal(); !wrong.isEmpty() || !declaration_) return wrong;
-    const auto uris = devicesOf(pages_->wiring().devices());
-    return uris ? QString() : sentence(uris.error());
+    return pages_->wiring().refused();
 }
 
 /// A run would end without any result if the safety gate refuses its strongest command, or if an answer that the
