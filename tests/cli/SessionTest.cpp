@@ -1,11 +1,13 @@
 // report and verify, for sessions that this program recorded.
 #include <cstdlib>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
 #include "core/base/Result.h"
+#include "core/session/SessionSignature.h"
 #include "tests/cli/Shape.h"
 
 namespace tacto::test {
@@ -41,6 +43,24 @@ TEST_F(Session, IsIntactAfterTheRun) {
     EXPECT_EQ(value["trials"], 8);
     EXPECT_EQ(value["captures"], 16);
     EXPECT_THAT(desk.run({"verify", session}).out, HasSubstr(value["head"].get<std::string>()));
+}
+
+TEST_F(Session, AReportThatWasChangedAfterItWasSignedExitsOne) {
+    RecordProperty("hazard", "H8");
+    const auto report = desk.at("out") + "/signed.pdf";
+    ASSERT_EQ(desk.run({"report", session, "--out", report}).code, 0);
+    ASSERT_TRUE(signReport(session, report, "R. Viewer"));
+    const auto verified = [&] { return desk.run({"verify", session, "--json"}); };
+    EXPECT_EQ(verified().code, 0);
+    const auto signature = jsonOf(verified())["signatures"].at(0);
+    EXPECT_EQ(signature["by"], "R. Viewer");
+    EXPECT_EQ(signature["report"], "signed.pdf");
+    EXPECT_EQ(signature["state"], "unchanged");
+    std::ofstream(report, std::ios::app) << ' ';
+    EXPECT_EQ(verified().code, 1);
+    EXPECT_EQ(jsonOf(verified())["status"], "intact") << "the recording is";
+    EXPECT_EQ(jsonOf(verified())["signatures"].at(0)["state"], "changed");
+    EXPECT_THAT(desk.run({"verify", session}).out, HasSubstr("it was changed after that"));
 }
 
 TEST_F(Session, AChangedByteAnywhereIsDamageAndExitsOne) {

@@ -67,7 +67,10 @@ constexpr std::string_view kShareAPlace[] = {"Folder of a new study", "Definitio
 constexpr std::pair<const char*, const char*> kTriedByAnother[] = {
     {"CloseQuestion", "whether a run is to end: the same box as for a script that is not saved"},
     {"StudyList", "releasing a study after a serious event: the same frame as for the event"},
-    {"StudyList", "whether to go back to an older ledger: the same frame as for a participant who leaves"}};
+    {"StudyList", "whether to go back to an older ledger: the same frame as for a participant who leaves"},
+    {"ReportView", "where to save a report: the same question as for a plot"},
+    {"TableText", "where to save a table: the same question as for a plot"},
+    {"TableText", "that a table was not saved: the same box as for a plot"}};
 
 struct Opening {
     std::string name;
