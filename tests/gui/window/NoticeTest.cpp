@@ -95,6 +95,7 @@ TEST_F(Notices, WhatARunEndedWithIsSaidOfThen) {
     ASSERT_IN_TIME(comesTrue([] { return !inSightWith("was switched off").empty(); }));
     window.openSimulatedBench();
     ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Live; }));
+    window.showWorkspace(3);  // the opened bench led to Live
     ASSERT_NO_FATAL_FAILURE(arm());
     EXPECT_IN_TIME(comesTrue([] { return inSightWith("Output is off").empty(); })) << inSightWith("Output is off");
     EXPECT_NE(inSightWith("was switched off"), "") << "the result says it of its run";
