@@ -54,7 +54,8 @@ void checkIdentification(std::string_view text) {
     const auto participants = parseIdentificationTrials(text, "fuzz.csv");
     if (refusedByName(participants)) return;
     if (participants->empty()) std::abort();
-    for (const auto& [participant, basis, trials] : *participants) {
+    for (const auto& participant : *participants) {
+        const auto trials = participant.trials();
         const auto identified = identifyAsMet(trials);
         if (!identified && identified.error().message.empty()) std::abort();
         if (!identified) continue;
