@@ -192,7 +192,8 @@ Result<SensorCalibration> calibrateSensor(const std::vector<SlidSurface>& surfac
     if (auto valid = validate(scaled); !valid) return failure(valid);
 
     for (const auto& surface : surfaces) {
-        SurfaceResult row{surface.name, surface.ra_um, surface.rz_um, surface.slides.size(), {}, {}, {}};
+        SurfaceResult row{surface.name, surface.ra_um, surface.rz_um, surface.slides.size(), {}, {},
+                          {},           surface.source};
         for (std::size_t f = 0; f < kSensorFeatures.size(); ++f) {
             const auto values = logarithms(surface, kSensorFeatures[f]);
             row.features[f] = values ? std::pow(10, statisticsOf(*values).mean) : std::nan("");

@@ -33,6 +33,7 @@ struct SlidSurface {
     double ra_um = std::numeric_limits<double>::quiet_NaN();  ///< measured by a profilometer; NaN: unknown
     double rz_um = std::numeric_limits<double>::quiet_NaN();
     std::vector<SlideReading> slides;
+    std::string source = {};  ///< of Ra and Rz: "typed in", or the file
 };
 
 struct SurfaceResult {
@@ -43,6 +44,7 @@ struct SurfaceResult {
     std::array<double, kSensorFeatures.size()> features{};  ///< geometric means; NaN: absent
     Statistics R;        ///< R of the slides with the new scale; outside 0..1 if outside the references
     Statistics force_n;  ///< from the mean force of each slide
+    std::string source = {};
 };
 
 struct SensorCalibration {

@@ -175,15 +175,26 @@ std::vector<PlacedSurface> surfacesOf(const SensorCalibration& found) {
     return all;
 }
 
+/// The members that a surface has before it is felt.
+template <class Surface>
+ResultRecord<Surface> describeGiven() {
+    ResultRecord<Surface> all;
+    all.shown(text("Surface", "name"), &Surface::name);
+    all.shown(number("Ra", "ra_um", "um"), &Surface::ra_um);
+    all.shown(number("Rz", "rz_um", "um"), &Surface::rz_um);
+    all.shown(text("Ra and Rz are", "source"), &Surface::source);
+    return all;
+}
+
 ResultRecord<PlacedSurface> describeSurface() {
     using P = PlacedSurface;
     using S = SurfaceResult;
+    const auto given = describeGiven<S>();
     ResultRecord<P> all;
+    all.merge(&P::surface, given);
     for (const auto feature : kSensorFeatures)
         all.kept(std::string(keyOf(feature)), [feature](const P& at) { return at.feature(feature); });
-    all.shown(text("Surface", "name"), in(&P::surface, &S::name));
-    all.shown(number("Ra", "ra_um", "um"), in(&P::surface, &S::ra_um));
-    all.shown(number("Rz", "rz_um", "um"), in(&P::surface, &S::rz_um));
+    for (const char* key : {"name", "ra_um", "rz_um"}) all.shown(given.column(key));
     all.shown(number("Slides", "slides"), in(&P::surface, &S::slides));
     all.shown(number("Vibration h", "h"), [](const P& at) { return at.feature(vibrationOf(at.calibration)); });
     all.shown(number("Taxels v", "v"), [](const P& at) { return at.feature(taxelsOf(at.calibration)); });
@@ -191,7 +202,7 @@ ResultRecord<PlacedSurface> describeSurface() {
     all.kept("R_expanded_uncertainty", [](const P& at) { return expandedR(at.calibration, at.R); });
     all.shown(spread("s.d. of R", "R_sd", ""), [](const P& at) { return at.surface.R.sd; });
     all.shown(number("Force", "force_n", "N"), [](const P& at) { return at.surface.force_n.mean; });
-    all.shown(text("Ra and Rz are", "source"));  // taken from the operator
+    all.shown(given.column("source"));
     return all;
 }
 
@@ -360,6 +371,8 @@ Tables sensorTables() {
 }  // namespace
 
 Json toJson(const SensorCalibration& found) { return sensorRecord().write(found); }
+
+Json toJson(const SlidSurface& surface) { return builtOnce<describeGiven<SlidSurface>>().write(surface); }
 
 Json toJson(const FingertipScales& scales) { return builtOnce<describeScales>().write(scales); }
 

@@ -13,6 +13,8 @@ namespace tacto {
 /// "h" and "v" are the variants that the settings choose; the R of a surface is a mean, its U that of one slide, and U
 /// of R is given at R 0, 0.5 and 1.
 [[nodiscard]] nlohmann::json toJson(const SensorCalibration& found);
+/// Writes a surface as it stands in the results before it is felt.
+[[nodiscard]] nlohmann::json toJson(const SlidSurface& surface);
 /// A scale that is not known is null, with its reason.
 [[nodiscard]] nlohmann::json toJson(const FingertipScales& scales);
 

@@ -164,13 +164,10 @@ Result<Json> begin(ScriptSession& session, const Arguments& arguments) {
     run.results = {{"sensor", streamsOf(session)}, {"instruments", bench::devicesOf(session)}};
     Json names = Json::array();
     for (const auto& surface : run.given) {
-        run.surfaces.push_back({surface.name, surface.ra_um, surface.rz_um, {}});
+        run.surfaces.push_back({surface.name, surface.ra_um, surface.rz_um, {}, surface.source});
         run.slides.push_back(Json::array());
         names.push_back(surface.name);
-        run.results["surfaces"].push_back({{"name", surface.name},
-                                           {"ra_um", surface.ra_um},
-                                           {"rz_um", numberOrNull(surface.rz_um)},
-                                           {"source", surface.source}});
+        run.results["surfaces"].push_back(toJson(run.surfaces.back()));
     }
     session.keepPartial(run.results, Json::array());
     if (auto read = readRestInto(session, run, "fingertip at rest"); !read) return failure(read);
@@ -349,7 +346,6 @@ Result<Json> conclude(ScriptSession& session, const Arguments& arguments) {
     const Json shown = toJson(*found);
     if (auto kept = session.keepMeasurement("sensor calibration", shown); !kept) return failure(kept);
     run.results.update(shown);
-    for (std::size_t k = 0; k < run.given.size(); ++k) run.results["surfaces"][k]["source"] = run.given[k].source;
     session.keepPartial(run.results, Json::array());
     if (auto said = sayRanking(session, *found); !said) return failure(said);
     if (auto kept = keepFound(session, *found, run); !kept) return failure(kept);
