@@ -69,6 +69,8 @@ constexpr std::pair<const char*, const char*> kTriedByAnother[] = {
     {"StudyList", "releasing a study after a serious event: the same frame as for the event"},
     {"StudyList", "whether to go back to an older ledger: the same frame as for a participant who leaves"},
     {"ReportView", "where to save a report: the same question as for a plot"},
+    {"StudyResults", "where to save a figure: the same question as for a plot"},
+    {"StudyResults", "where to save all figures: the same question as for a plot"},
     {"TableText", "where to save a table: the same question as for a plot"},
     {"TableText", "that a table was not saved: the same box as for a plot"}};
 

@@ -122,6 +122,8 @@ int NextStepBar::across(int Button::*width, int apart) const {
 
 QSize NextStepBar::sizeHint() const { return {across(&Button::whole, kApart), flow()}; }
 
+int NextStepBar::lineWidth() const { return across(&Button::bare, kApartWithoutIcons); }
+
 QSize NextStepBar::minimumSizeHint() const {
     int widest = 0;
     for (const auto& each : buttons_) widest = std::max(widest, each.bare);

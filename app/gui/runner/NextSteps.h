@@ -36,6 +36,8 @@ public:
     void show(const std::vector<NextStep>& steps);
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
+    /// The width of one line of buttons without their icons.
+    [[nodiscard]] int lineWidth() const;
 
 signals:
     void chosen(tacto::gui::NextStep step);

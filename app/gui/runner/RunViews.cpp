@@ -66,10 +66,23 @@ RunViews::RunViews(QWidget* parent) : QWidget(parent) {
     views_->addWidget(log_);
     body_->addWidget(views_, 1);
     column->addWidget(buildBar());
-    onEvent(*views_, QEvent::Resize, [this] { arrange(); });  // their size is known only after layout
+    onEvent(*views_, QEvent::Resize, [this] { arrangeSoon(); });  // their size is known only after layout
     showResult(false);
     showPlot(Plot::Trials);
-    onEvent(*this, QEvent::Resize, [this] { arrange(); });
+    onEvent(*this, QEvent::Resize, [this] { arrangeSoon(); });
+}
+
+/// Not within the event: a panel that leaves a splitter ends its handle, and while a new style is set Qt still goes
+/// through the widgets that there were.
+void RunViews::arrangeSoon() {
+    if (std::exchange(arrangesSoon_, true)) return;
+    QMetaObject::invokeMethod(
+        this,
+        [this] {
+            arrangesSoon_ = false;
+            arrange();
+        },
+        Qt::QueuedConnection);
 }
 
 QWidget* RunViews::buildPlots() {
@@ -274,8 +287,7 @@ void RunViews::arrange() {
     choices_->button(kWaveform)->setVisible(ownView);
     if (!ownView && views_->currentIndex() == kWaveform) showView(kPlot);
     showPictureTools();
-    const int across =
-        2 * kViewSide + next_->sizeHint().width() + viewRow_->minimumSizeHint().width() + bar_->spacing();
+    const int across = 2 * kViewSide + next_->lineWidth() + viewRow_->minimumSizeHint().width() + bar_->spacing();
     bar_->setDirection(width() >= across ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
 }
 

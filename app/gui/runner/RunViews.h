@@ -70,6 +70,7 @@ private:
     [[nodiscard]] Still picture() const;
     void showPictureTools();
     void arrange();
+    void arrangeSoon();
     /// Position of a safety check's tracing.
     enum class Tracing { Beside, Below, OwnView };
     void placeTracing(bool judged);
@@ -93,6 +94,7 @@ private:
     LimitMatrixView* matrix_ = nullptr;    // the limits for each load
     DisclosedPanel* disclosed_ = nullptr;  // outputs to disclose, next to the limits or below
     Tracing tracing_ = Tracing::Below;
+    bool arrangesSoon_ = false;
     bool dragged_ = false;                    // the operator parted limits and tracing by hand
     CalibrationView* calibration_ = nullptr;  // replaces all of these for a calibration protocol
     QLabel* none_ = nullptr;
