@@ -86,8 +86,9 @@ int reportStudy(const QCommandLineParser& parser, const std::string& folder) {
         return usage(
             fmt::format("report: --noted, and the study notes no {} in {}; leave --noted out", what, place.string()));
     }
-    const auto record = readStudyRecord(*study);
+    auto record = readStudyRecord(*study);
     if (!record) return couldNotRun(record.error());
+    if (figures) leaveOutUnfinished(*record);
     const auto drawn = figures ? pilotFigures(*record) : Result<std::vector<PilotFigure>>();
     if (!drawn) return couldNotRun(drawn.error());
     const auto content = figures ? Result<ReportContent>() : contentFor(parser, *record);

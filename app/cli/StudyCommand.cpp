@@ -294,8 +294,9 @@ int readWords(Study& study, const QCommandLineParser& parser, const QStringList&
 
 /// Prints each session with its encoding, and which encoding is better; each kind of participants for itself.
 int results(Study& study, const QCommandLineParser& parser, const QStringList&) {
-    const auto record = readStudyRecord(study);
+    auto record = readStudyRecord(study);
     if (!record) return couldNotRun(record.error());
+    leaveOutUnfinished(*record);
     auto all = Json::array();
     for (const auto& [basis, part] : byBasis(*record)) {
         const auto found = studyFigures(basis, part);

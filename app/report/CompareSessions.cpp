@@ -64,8 +64,9 @@ struct Repeated {
     }
     /// Returns the square of the mean's standard deviation, NaN for a single reading.
     [[nodiscard]] double scatter() const {
+        const double middle = mean();
         double sum = 0;
-        for (const double value : values) sum += (value - mean()) * (value - mean());
+        for (const double value : values) sum += (value - middle) * (value - middle);
         return values.size() < 2 ? kNaN : sum / (n() - 1) / n();
     }
     /// Returns the mean square of the instrument's standard uncertainty, NaN unless each reading states it.
@@ -372,7 +373,10 @@ private:
                 const double value = numberOr(trial.measured, columns[c].at.c_str());
                 if (!std::isfinite(value)) continue;
                 repeated[c].values.push_back(value);
-                const double u = standardOf(trial.measured, columns[c].at);
+                double u = standardOf(trial.measured, columns[c].at);
+                // That of an interval is stated without the time base; a time base that is not known makes U unknown.
+                if (columns[c].at == "interval_s" && trial.measured.contains("time_base_u"))
+                    u = std::hypot(u, numberOr(trial.measured, "time_base_u") * value);
                 if (std::isfinite(u)) repeated[c].uncertainties.push_back(u);
                 repeated[c].expanded = numberOr(trial.measured, (columns[c].at + "_expanded").c_str());
             }

@@ -94,7 +94,10 @@ public:
     [[nodiscard]] std::shared_ptr<const Capture> take(std::shared_ptr<const Capture> record);
 
 private:
-    [[nodiscard]] bool heldOff(double at_s) const noexcept { return !(at_s >= last_s_ + trigger_.holdOff_s); }
+    /// A time before the last trigger is of another time base, and is not held off; NaN is.
+    [[nodiscard]] bool heldOff(double at_s) const noexcept {
+        return !(at_s < last_s_ || at_s >= last_s_ + trigger_.holdOff_s);
+    }
 
     SampleTrigger trigger_;
     std::string unit_;

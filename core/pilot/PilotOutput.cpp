@@ -471,6 +471,7 @@ Result<void> LevelRamp::presentAgain(const std::string& name, double level, cons
         const auto meant = stage_.meantTooStrong(name);
         if (!meant) return failure(meant);
         if (!*meant) {
+            if (auto held = stage_.answeredFor(tooStrongHold(name)); !held) return held;
             again.name += " again";
             answer = stage_.trial(again);
         }

@@ -43,6 +43,8 @@ public:
 
     /// From now on the levels must be reached again before anything is presented.
     void becomeDue() noexcept { due_ = true; }
+    /// Levels accepted so far no longer count: the electrodes are seated anew. What was too strong stays.
+    void forgetAccepted() noexcept { accepted_.clear(); }
     /// If the ramp is due, presents each accepted level that was not too strong, from the weakest up, while the
     /// participant holds. A level that is too strong now ends the session.
     [[nodiscard]] Result<void> reach();

@@ -117,6 +117,8 @@ public:
     [[nodiscard]] Result<bool> meantTooStrong(const std::string& trial);
     /// From now on nothing is presented above `level`, the top of a resumed session's ramp.
     void settle(double level) noexcept { output_.ramp().settle(level); }
+    /// Levels rise from zero again: a ramp reaches only levels that are accepted from now on.
+    void forgetAccepted() noexcept { output_.ramp().forgetAccepted(); }
     /// Writes the end of the session, once. Returns the error that the script throws; no error for Complete.
     [[nodiscard]] Result<void> end(PilotEnd how, const std::string& why);
     [[nodiscard]] PilotEnd ended() const noexcept { return end_; }

@@ -1,5 +1,6 @@
 #include "core/pilot/PilotThresholds.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -54,6 +55,8 @@ Result<LevelGrid> PilotThresholds::ascendingGrid() {
     if (stored->contains("device")) ceilings.push_back({numberOr(*stored, "device"), LevelLimit::Device});
     ceilings.push_back({numberOr(*stored, "cap"), LevelLimit::Cap});
     if (stored->contains("gate")) ceilings.push_back({numberOr(*stored, "gate"), LevelLimit::Gate});
+    if (std::isfinite(tooStrongBefore_))
+        ceilings.push_back({tooStrongBefore_ - numberOr(*stored, "step"), LevelLimit::TooStrong});
     return LevelGrid::create(stage_.settings().unit, numberOr(*stored, "step"), ceilings);
 }
 
@@ -265,6 +268,8 @@ Result<void> PilotThresholds::range() {
 Result<bool> PilotThresholds::measureAgain() {
     if (!range_) return invalid("whether to measure again comes after the range");
     if (range_->usable || repeats_ == kMaxRepeats) return false;
+    if (ascending_.saidTooStrong) tooStrongBefore_ = std::min(tooStrongBefore_, ascending_.tooStrong);
+    if (!(tooStrongBefore_ > 1.5 * grid_->step())) return false;  // no level lies below it
     stage_.rest();
     const auto prompt =
         yesNoPrompt("measure-again",
@@ -277,6 +282,7 @@ Result<bool> PilotThresholds::measureAgain() {
     if (textOr(*said, "key") != "yes") return false;
     ++repeats_;
     liveSeries_ = 0;
+    stage_.forgetAccepted();
     detectionGrid_.reset();
     estimate_ = {kNaN, kNaN, kNaN};
     estimateAtEdge_ = measured_ = false;

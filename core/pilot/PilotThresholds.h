@@ -3,6 +3,7 @@
 // it returns the results in its rows.
 #pragma once
 
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -78,6 +79,7 @@ private:
     nlohmann::json rangeRow_;
     std::optional<StrengthComparisonResult> compared_;
     std::size_t liveSeries_ = 0;
+    double tooStrongBefore_ = std::numeric_limits<double>::infinity();  // the lowest of the earlier measurements
     int repeats_ = 0;
     std::size_t ascended_ = 0, detected_ = 0, ranged_ = 0;  // presentations so far of each step, over all repeats
 };

@@ -145,10 +145,9 @@ private:
             if (auto done = checkKind(entry, body ? *body : nlohmann::json(), *chunk, *capture); !done) return done;
             ++report_.rows;
             if (annotates) {
-                if (auto signature = signatureIn(body ? *body : nlohmann::json()))
-                    signatures_.push_back(std::move(*signature));
-                else
-                    ++annotations_;
+                auto signature = signatureIn(body ? *body : nlohmann::json());
+                if (!signature || body->size() > 2) ++annotations_;  // a signature stands beside its time alone
+                if (signature) signatures_.push_back(std::move(*signature));
                 continue;  // not part of the recording, which ended before
             }
             head_ = previous;

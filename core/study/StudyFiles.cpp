@@ -46,7 +46,7 @@ namespace {
 Result<void> checkWhole(const nlohmann::json& record, const std::vector<FieldInfo>& infos, const std::string& source) {
     for (const auto& info : infos) {
         if (!record.contains(info.key)) {
-            constexpr std::string_view kSince[] = {"license", "pain_ceiling", "age_min", "exclusions"};
+            constexpr std::string_view kSince[] = {"license", "pain_ceiling", "age_min", "exclusions", "words"};
             if (std::ranges::find(kSince, info.key) != std::end(kSince)) continue;
             return fail(ErrorCode::ParseError, "{}: \"{}\" is missing; a study has all its settings", source, info.key);
         }

@@ -83,6 +83,7 @@ TEST_F(PilotSlipTest, ASlipInTheRampEndsNoSession) {
     accepted(ramp.reach());
     EXPECT_EQ(endedBy(*record_), "");
     EXPECT_THAT(answered(), Contains("ramp 0 0.5 again"));
+    EXPECT_EQ(bodies(row::kHold).size(), 1U) << "the operator answers by name before it comes again";
     slips = 2;
     ramp.becomeDue();
     EXPECT_THAT(ramp.reach(), refused(ErrorCode::Stopped)) << "said twice, it is meant";
@@ -128,6 +129,43 @@ TEST_F(PilotSlipTest, ARangeThatIsNotUsableIsMeasuredAgainWhereTheOperatorWantsI
     accepted(measure(again));
     EXPECT_EQ(again.toJson(), found);
     EXPECT_TRUE(someone_.asked.empty()) << "a resumed session asks nothing twice";
+}
+
+TEST_F(PilotSlipTest, WhatWasTooStrongIsNotPresentedAgainWhenMeasuredAgain) {
+    RecordProperty("hazard", "H6");
+    feels(100, 4);  // nothing is felt until it is too strong
+    someone_.answers["measure-again"] = "yes";
+    PilotThresholds thresholds(*stage_);
+    const auto measure = [&]() -> Result<void> {
+        if (auto done = thresholds.ascendingLimits(); !done) return done;
+        if (auto done = thresholds.detection(DetectionMethod::Staircase); !done) return done;
+        return thresholds.range();
+    };
+    accepted(measure());
+    ASSERT_EQ(thresholds.limits().tooStrong, 4);
+    ASSERT_TRUE(accepted(thresholds.measureAgain()));
+    std::vector<double> levels;
+    feels(1, 200);
+    someone_.onAsk = [this, &levels, asked = someone_.onAsk](const PilotPrompt& prompt) {
+        asked(prompt);
+        if (prompt.name == "strength") levels.push_back(someone_.level);
+    };
+    accepted(thresholds.ascendingLimits());
+    ASSERT_FALSE(levels.empty());
+    EXPECT_EQ(levels.front(), 0.5) << "from zero, and by no ramp to what was accepted before";
+    EXPECT_EQ(std::ranges::max(levels), 3.5) << "one step below what was too strong";
+}
+
+TEST_F(PilotSlipTest, ARampReachesNothingOfBeforeTheElectrodesWereSeatedAnew) {
+    RecordProperty("hazard", "H6");
+    someone_.letsGo = true;
+    LevelRamp ramp(*stage_, true);
+    for (const double level : {0.5, 1.0, 1.5})
+        ASSERT_TRUE(ramp.judged(level, false, fmt::format("ascending {}", level), true));
+    ramp.forgetAccepted();
+    ramp.becomeDue();
+    accepted(ramp.reach());
+    EXPECT_TRUE(answered().empty());
 }
 
 TEST_F(PilotSlipTest, AnUnusableRangeIsRepeatedTwiceAtMost) {

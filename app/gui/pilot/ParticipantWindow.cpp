@@ -263,9 +263,8 @@ void ParticipantWindow::pressHold() {
 void ParticipantWindow::letGo() {
     heldKey_ = 0;
     if (!desk_.holding()) return;
-    const bool stops = !desk_.mayLetGo();
-    desk_.setHolding(false);
-    if (!stops) return;
+    desk_.setHolding(false);  // first: whatever begins from here on sees that nobody holds
+    if (desk_.mayLetGo()) return;
     stop_(kParticipantLetGo);
     face_->hold().hide();
     noteStop();

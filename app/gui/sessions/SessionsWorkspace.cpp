@@ -271,16 +271,22 @@ void SessionsWorkspace::makeReport() {
     auto out = entry->path;
     out.replace_extension(".pdf");
     say(tr("Drawing the report…"));
-    work_.take([path = entry->path](const WorkPort&) { return signaturesIn(path); },
-               [this, path = entry->path, out](const Result<std::vector<SessionSignature>>& found) {
-                   const auto known = found ? checkSignatures(path, *found) : std::vector<CheckedSignature>();
-                   std::error_code error;
-                   if (known.empty() || !std::filesystem::exists(out, error))
-                       return reports_.make(qtext(path.string()), qtext(out.string()));
-                   // A drawing would take the place of what was signed.
-                   say(tr("%1 It is not drawn again.").arg(qtext(sentenceOf(known.back()))));
-                   showReport(qtext(out.string()));
-               });
+    work_.take(
+        [path = entry->path, out](const WorkPort&) -> Result<std::vector<CheckedSignature>> {
+            auto found = signaturesIn(path);
+            if (!found) return failure(found);
+            std::erase_if(*found, [&](const auto& each) { return path.parent_path() / each.report != out; });
+            return checkSignatures(path, *found);
+        },
+        [this, path = entry->path, out](const Result<std::vector<CheckedSignature>>& found) {
+            std::error_code error;
+            const bool there = std::filesystem::exists(out, error);
+            if (!found && there) return say(sentence(found.error()));
+            if (!there || found->empty()) return reports_.make(qtext(path.string()), qtext(out.string()));
+            // A drawing would take the place of what was signed.
+            say(tr("%1 It is not drawn again.").arg(qtext(sentenceOf(found->back()))));
+            showReport(qtext(out.string()));
+        });
 }
 
 /// A report lies beside its session and has its name.

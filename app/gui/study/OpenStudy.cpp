@@ -56,8 +56,9 @@ Result<RunResult> recordedResult(const Study& study, const StudySession& session
 }
 
 Result<StudyShown> shownOf(const Study& study) {
-    const auto record = readStudyRecord(study);
+    auto record = readStudyRecord(study);
     if (!record) return failure(record);
+    leaveOutUnfinished(*record);
     StudyShown shown;
     for (const auto& [basis, part] : byBasis(*record)) {
         const auto found = studyFigures(basis, part);

@@ -56,7 +56,9 @@ StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
         if (!asks_) pages_->currentIndex() == kList ? list_->say(why) : say(why);
     });
     connect(&study_, &OpenStudy::changed, this, [this] {
-        if (study_.folder().isEmpty() && pages_->currentIndex() >= kList) pages_->setCurrentIndex(kNone);
+        if (!study_.folder().isEmpty()) return;
+        results_->show({});
+        if (pages_->currentIndex() >= kList) pages_->setCurrentIndex(kNone);
     });
 }
 

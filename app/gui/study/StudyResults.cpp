@@ -86,7 +86,7 @@ void StudyResults::choose(int row) {
     const auto parts = static_cast<int>(shown_.parts.size());
     const bool drawn = row >= parts;
     save_->setEnabled(drawn);
-    if (row < 0) return;
+    if (row < 0) return tables_->show(nlohmann::json::object());
     pages_->setCurrentIndex(drawn ? 1 : 0);
     if (!drawn) return tables_->show(shown_.parts[std::size_t(row)]);
     const auto& figure = shown_.figures[std::size_t(row - parts)];

@@ -174,14 +174,15 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     closing_ = new CloseQuestion(
         controller_, *this, [this] { return workspaces_->runners(); },
         [this] { return workspaces_->pilot() != nullptr && workspaces_->pilot()->running(); });
+    // Before any page is made: a pilot session must still count as running when reopen() looks.
+    connect(&controller_, &BenchController::finished, this,
+            [this](const std::shared_ptr<const FinishedRun>& run) { reopen(*run); });
     restore();
     connect(&frame_, &QTimer::timeout, this, &MainWindow::tick);
     frame_.setObjectName("frame");
     connect(&controller_, &BenchController::changed, this, &MainWindow::stir);
     connect(&controller_, &BenchController::failed, this, &MainWindow::stir);
     connect(&controller_, &BenchController::changed, this, &MainWindow::followBench);
-    connect(&controller_, &BenchController::finished, this,
-            [this](const std::shared_ptr<const FinishedRun>& run) { reopen(*run); });
     qApp->installEventFilter(this);
     stir();
     showTitle();
@@ -323,10 +324,14 @@ void MainWindow::followBench() {
 /// After an error or a stop it stays closed until a person opens it, and after a session of a study.
 void MainWindow::reopen(const FinishedRun& run) {
     const auto* pilot = workspaces_->pilot();
-    if (run.result.outcome.error || !controller_.closedByRun() || (pilot != nullptr && pilot->running())) return;
-    QTimer::singleShot(0, this, [this] {  // first the workspaces show the result
-        reopens_ = controller_.closedByRun();
+    if (run.result.outcome.error || run.result.stoppedBySafety || !controller_.closedByRun() ||
+        (pilot != nullptr && pilot->running()))
+        return;
+    QTimer::singleShot(0, this, [this, asked = run.order.asked] {  // first the workspaces show the result
+        if (controller_.stoppedSince(asked)) return;               // also by a stop that came while the run closed
+        const bool wanted = controller_.closedByRun();
         controller_.openAgain();
+        reopens_ = wanted && !controller_.closedByRun();  // nothing opens on a new day without its notes
     });
 }
 

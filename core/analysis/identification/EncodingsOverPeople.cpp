@@ -22,7 +22,10 @@ double varianceOf(const EncodingResult& result) {
     return p * (1 - p) / n;
 }
 
-double varianceOf(const Estimate& estimate) { return std::pow((estimate.high - estimate.low) / (2 * kNormal95), 2); }
+/// By the longer side of the interval: an end may be cut off at 0, or at the most that can be told apart.
+double varianceOf(const Estimate& estimate) {
+    return std::pow(std::max(estimate.high - estimate.value, estimate.value - estimate.low) / kNormal95, 2);
+}
 
 const EncodingResult* encodingIn(const PersonEncodings& person, const std::string& name) {
     const auto found = std::ranges::find(person.encodings, name, &EncodingResult::encoding);

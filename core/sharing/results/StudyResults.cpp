@@ -91,6 +91,14 @@ SessionExposure exposureOf(const std::vector<SessionRow>& commands) {
     return out;
 }
 
+void leaveOutUnfinished(StudyRecord& study) {
+    for (auto& each : study.participants) {
+        std::erase_if(each.sessions, [](const SessionRecord& session) {
+            return session.about.state == StudySessionState::Unfinished;
+        });
+    }
+}
+
 Result<StudyRecord> readStudyRecord(const Study& study) {
     if (!study.hasKey()) {
         return fail(ErrorCode::Unsupported, "{} was opened without its key; results need its passphrase",
@@ -273,6 +281,10 @@ public:
             takeSideEffect(name, body);
         } else if (each.name == row::kPhase && name == row::meantName(calledTooStrong_) && saidIn(body) == "no") {
             out_.tooStrong = beforeTooStrong_;  // a slip, taken back
+        } else if (each.name == row::kPhase && name.starts_with("measure again ") && saidIn(body) == "yes") {
+            series_.clear();  // measured anew; what was too strong stays
+            out_.detection = out_.detectionLow = out_.detectionHigh = detectionLevel_ = kNaN;
+            beforeLevel_ = highestLevel_ = kNaN;
         } else if (each.name == row::kAnswer) {
             takeAnswer(name, body);
         } else if (each.name == row::kNoAnswer && countOr(body, "number") > 0) {

@@ -57,6 +57,8 @@ struct StudyRecord {
 
 /// Errors: Unsupported if the study was opened without its key; as SessionReader.
 [[nodiscard]] Result<StudyRecord> readStudyRecord(const Study& study);
+/// Takes out sessions that may still go on: their figures would tell a blind operator what was presented (hazard H9).
+void leaveOutUnfinished(StudyRecord& study);
 
 /// Splits the study by basis, people first, into one record for each basis. Counts and figures are made from one such
 /// record: people and virtual participants are never counted together.

@@ -139,7 +139,7 @@ void fillTrigger(const ScopeModel& model, OverlayState& o) {
             if (!searched(its.kind) || !(its.hysteresis > 0)) break;
             if (its.edge == (sign > 0 ? TriggerEdge::Falling : TriggerEdge::Rising)) continue;
             const double from = its.kind == TriggerKind::Runt && sign < 0 ? its.upper : its.level;
-            const auto [low, high] = std::minmax(from, from - sign * its.hysteresis);
+            const auto [low, high] = std::minmax({from, from - sign * its.hysteresis});
             o.trigger->hysteresis.emplace_back(scale.heightOf(low), scale.heightOf(high));
         }
         o.trigger->colour = laneInk(model, *source);

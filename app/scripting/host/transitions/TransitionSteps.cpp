@@ -211,6 +211,7 @@ Result<Json> conclude(ScriptSession& session, const Arguments& arguments) {
         return fail(ErrorCode::InvalidArgument, "{0}.conclude: {0}.knownLoad() is expected first", arguments.object());
     judge(session, run);
     TransitionsFound& found = run.found;
+    found.reasons.clear();
     if (auto said = session.reportText(askedText(run.limits)); !said) return failure(said);
     if (auto said = session.reportText(openText(found.changes->groups)); !said) return failure(said);
     const auto designed = found.computed.verdict == Verdict::Pass ? Verdict::Pass : Verdict::Indeterminate;
