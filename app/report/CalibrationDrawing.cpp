@@ -1,5 +1,5 @@
 // Draws a calibration: readings around the fitted line, or each level's error with its uncertainty in the tolerance
-// band; next to it the two sweep directions on a separate scale.
+// band. A second plot shows both sweep directions on a separate scale.
 #include "app/report/FigureDrawing.h"
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"

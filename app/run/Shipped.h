@@ -1,6 +1,6 @@
 // Shipped.h - the profile, limit sets and instrument profiles that are built into the program: no file and no
 // environment variable replaces them (hazards H1 and H9). Additional limit sets in the folder limits/ of the resources
-// apply too, so they can only tighten the limits; they are named wherever limits are.
+// apply too, so they can only tighten the limits; every list of limits names them.
 //
 // Thread-safety: reads files; any thread.
 #pragma once

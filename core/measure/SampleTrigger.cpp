@@ -213,8 +213,7 @@ std::shared_ptr<const Capture> SampleTriggerSearch::take(std::shared_ptr<const C
         return record;
     }
     const std::size_t samples = std::min(samples_, record->samples()), most = record->samples() - samples;
-    const double last = samples > 0 ? static_cast<double>(samples - 1) : 0;
-    const double before = std::min(std::round(preTrigger_ * static_cast<double>(samples)), last);
+    const double before = std::round(preTrigger_ * static_cast<double>(samples));
     const auto channel = std::find_if(record->channels.begin(), record->channels.end(),
                                       [this](const CaptureChannel& its) { return its.unit == unit_; });
     if (channel != record->channels.end()) {

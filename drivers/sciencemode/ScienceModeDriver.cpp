@@ -58,7 +58,7 @@ Result<Sighting> ask(Result<std::unique_ptr<Transport>> opened, std::string plac
     auto found = identify(exchange, emulated);
     if (!found) return failure(found);
     if (!wanted.empty() && found->id != wanted) {
-        return fail(ErrorCode::NotFound, "stimulator {} answered where {} was asked for", found->id, wanted);
+        return fail(ErrorCode::NotFound, "stimulator {} answered instead of {}", found->id, wanted);
     }
     const auto answer = exchange.ask(Command::StimStatus);
     if (!answer) return failure(answer);

@@ -144,8 +144,8 @@ private:
     std::thread echo_;  // declared last: starts when everything else is ready
 };
 
-// Reads without the C library: in some tests umockdev replaces its calls and locks around every open, and the thread
-// sanitizer's report of a race there would wait for that lock forever.
+// Reads without the C library. In some tests umockdev replaces the library's calls and holds a lock during each open.
+// If the thread sanitizer found a race there, its report would wait for that lock forever.
 class KernelFile {
 public:
     explicit KernelFile(const std::string& path)

@@ -404,7 +404,7 @@ void LiveWorkspace::replayAgain() {
 }
 
 void LiveWorkspace::chooseRecording() {
-    FileQuestion question{.title = tr("Open a recording: its recording.json"),
+    FileQuestion question{.title = tr("Open a recording (recording.json)"),
                           .filters = {tr("Recordings (*.json)"), tr("All files (*)")}};
     askForFile(*this, question, [this](const QString& path) { openRecording(path); });
 }

@@ -30,7 +30,7 @@ ProfileEditor::ProfileEditor(BenchController& controller, QWidget* parent) : QDi
     setWindowTitle(tr("Encoding profile"));
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(
-        explanation(tr("How touch becomes pulse trains. The encoding changes while the output is disarmed; "
+        explanation(tr("How touch becomes pulse trains. Change the encoding while the output is disarmed; "
                        "the limits always apply."),
                     this));
     auto* split = new QHBoxLayout;

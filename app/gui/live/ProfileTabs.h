@@ -26,7 +26,7 @@ struct ProfileField {
     const char* tip;
     std::vector<const char*> words{};   ///< the file's words, in order, phrased for people; empty for a number
     const char* accepts = nullptr;      ///< text shown instead of the range
-    const char* needs = nullptr;        ///< the field has effect only if the choice with this key...
+    const char* needs = nullptr;        ///< the field applies only if the choice with this key...
     const char* needsValue = nullptr;   ///< ...has this value, or with a leading '!' any other value
     const FieldInfo* stored = nullptr;  ///< the field's entry in the core's table
 

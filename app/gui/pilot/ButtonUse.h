@@ -23,8 +23,8 @@ struct ButtonUse {
 inline constexpr int kMaxAnswers = 6;  ///< most answers to a question that can be given by buttons
 
 /// Returns the default use of each button, until the operator changes it. One button (a pedal): STOP. Two: the first
-/// holds. Three to five: the last is STOP. More: the fifth and sixth (the shoulder buttons of a game pad) are STOP, and
-/// the next two hold.
+/// is held while levels rise. Three to five: the last is STOP. More: the fifth and sixth (the shoulder buttons of a
+/// game pad) are STOP, and the next two are held.
 [[nodiscard]] std::vector<ButtonUse> usualUses(std::size_t buttons);
 
 /// A device, and the person who uses it, for one session.

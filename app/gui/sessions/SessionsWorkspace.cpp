@@ -108,7 +108,8 @@ QWidget* SessionsWorkspace::buildListActions() {
                  tr("Is it what was recorded? Checks every row and sample against the chain."), [this] { verify(); });
     actions_
         .add(*row, "export", tr("E&xport CSV…"),
-             tr("A file per stream, trials, events with their marks, commands and captures."), [this] { askExport(); })
+             tr("One file for each stream; also trials, events with marks, commands and captures."),
+             [this] { askExport(); })
         ->setObjectName("exportSession");
     row->addStretch();
     auto* hint = new ElidedLabel(tr("Ctrl+click: a second · Ctrl+F: search"), holder);

@@ -164,7 +164,7 @@ FormField aboutField(const char* name, const QString& label, std::span<const std
     std::vector<std::pair<QString, QString>> choices{{"", tr("not given")}};
     for (const auto word : words) choices.emplace_back(qtext(word), qtext(word));
     return choiceField(name, label, choices,
-                       tr("Only where the approval asks for it. It is sealed, and exported only on request."));
+                       tr("Fill in only if the approval requires it. It is sealed, and exported only on request."));
 }
 
 /// Side effects since the session, each with its relation to the session.
@@ -272,10 +272,11 @@ QDialog* enrolDialog(OpenStudy& study, std::function<void(const QString& code)> 
             form->hide();
             asks->findChild<QPushButton*>("enrolNow")->setText(tr("Note the consent…"));
             code->setText(qtext(enrolled->code));
-            next->setText(enrolled->virtualSeed
-                              ? tr("Enrolled. The consent to the form in force comes next, as for everyone.")
-                              : tr("Enrolled. Give the person this code on paper: they read it on their own screen at "
-                                   "each session. Keep it apart from their name. Their consent comes next."));
+            next->setText(
+                enrolled->virtualSeed
+                    ? tr("Enrolled. The consent to the form in force comes next, as for everyone.")
+                    : tr("Enrolled. Give the person this code on paper; at each session their own screen shows "
+                         "it. Keep it apart from their name. Their consent comes next."));
             for (auto* label : {code, next}) label->show();
             asks->nameCancel(tr("Close"));
             asks->adjustSize();

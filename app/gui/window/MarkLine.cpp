@@ -48,7 +48,7 @@ MarkLine::MarkLine(BenchController& controller, RecordingLine& line, QWidget& ov
     row->addWidget(word_, 1);
     auto* close = new QPushButton(icon("close"), QString(), this);
     close->setAccessibleName(tr("No mark"));
-    close->setToolTip(tr("Closes the line without a mark."));
+    close->setToolTip(tr("Closes this and adds no mark."));
     close->setAutoDefault(false);
     makeQuiet(*close);
     connect(close, &QPushButton::clicked, this, &MarkLine::leave);

@@ -168,9 +168,8 @@ QWidget* SafetyBar::buildButtons() {
     pause_ = new ConfirmButton({}, holder);
     pause_->setObjectName("pauseButton");
     pause_->setToolTip(
-        tr("Holds the output back and keeps the run; a protocol waits at its next step. A train that is under way ends "
-           "by itself, within 2 s; no other one "
-           "is delivered until you resume. STOP ends it at once."));
+        tr("Pauses the output but not the run; a protocol waits at its next step. The current train finishes within "
+           "2 s; no other train is delivered until you resume. STOP ends a train at once."));
     connect(pause_, &QPushButton::clicked, this, &SafetyBar::pressPause);
     details_ = pageButton(tr("Details…"), {}, tr("All messages since the program began."), holder);
     connect(details_, &QPushButton::clicked, this, &SafetyBar::detailsRequested);
@@ -281,7 +280,7 @@ void SafetyBar::showDevice(const Telemetry& telemetry) {
     device_->setText(text);
     device_->setToolTip(text);
     const double age_s = noteImpedance(telemetry);
-    // Hidden while blind: the time of a measurement would show when a train came, and the value which train.
+    // Hidden from a blind operator: the time of a measurement would show when a train came, its value which train.
     load_->setText(!open->source || blind_ ? QString()  // a massager has no impedance
                    : std::isfinite(measured_ohm_)
                        ? QString("%1 · %2").arg(quantityText(measured_ohm_, "ohm", 3), ageText(age_s))

@@ -101,7 +101,7 @@ struct TripTrial {
     double after_s = std::numeric_limits<double>::quiet_NaN();  ///< from the change to the end of output
     std::string reason;                                         ///< the trip's message, or why it was not evaluated
     double stop_s = kNaN;     ///< from the onset of the detecting train to the end of output; upper bound
-    double allowed_s = kNaN;  ///< from that onset to the due time of the next train
+    double allowed_s = kNaN;  ///< from the same onset to the time when the next train is due
 };
 /// The trips that a complete check contains.
 inline constexpr std::array<std::string_view, 6> kRequiredTrips = {

@@ -33,7 +33,7 @@ inline constexpr Milliamps kVirtualFullIntensity{15};
 struct VirtualObserverSettings {
     VirtualParticipant who;
     std::uint64_t seed = 1;
-    double adaptation = 0;        ///< a, 0 to 10: thresholds rise to 1 + a times their value
+    double adaptation = 0;        ///< a, 0 to 10: thresholds rise by a factor of 1 + a
     Seconds adaptationTime{300};  ///< τ, as time of stimulation; > 0
     LevelUnit unit = LevelUnit::Current;
 };

@@ -206,7 +206,7 @@ ResultRecord<PlacedSurface> describeSurface() {
     return all;
 }
 
-/// U of R of one slide, at R 0, 0.5 and 1.
+/// The expanded uncertainty of one slide's R, at R = 0, 0.5 and 1.
 Json uncertaintyJson(const SensorCalibration& found) {
     if (!found.uncertainty) return {};
     Json out = roughnessUncertaintyFields().write(*found.uncertainty);

@@ -72,8 +72,8 @@ struct TrialsNeeded {
 
 /// The population that a pilot draws from.
 struct PilotPeople {
-    std::span<const double> accuracies;  ///< accuracy of each person served, 0 to 1; not empty
-    std::size_t all = 0;                 ///< number of all people, served or not
+    std::span<const double> accuracies;  ///< of each person for whom all conditions are valid, 0 to 1; not empty
+    std::size_t all = 0;                 ///< number of all people
 };
 
 struct PilotOutlook {

@@ -85,8 +85,8 @@ TrainJudgement DeliveryJudge::status(const TrainReport& report) const noexcept {
     return judgeTrain(mode_, readBackOf(report), report.end, report.statusAt);
 }
 
-/// The programmed value may be corrected, so compare with the command, and allow one step of the device. A check pulse
-/// is so small that one step would excuse any error.
+/// The programmed value may be corrected, so compare with the command and allow one step of the device, but not for a
+/// check pulse: it is so small that one step would hide any error.
 std::optional<LoopFault> DeliveryJudge::readBack(const TrainReport& report) {
     if (std::isnan(report.measured)) return std::nullopt;  // the device does not read it back
     readsAmplitude_ = true;

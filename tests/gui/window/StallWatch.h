@@ -16,7 +16,7 @@ namespace tacto::test {
 
 struct Stalls {
     static constexpr double kBeat_ms = 5;
-    static constexpr double kNoticed_ms = 50;  ///< from this length a person notices a gap
+    static constexpr double kNoticed_ms = 50;  ///< the shortest gap that a person notices
     double longest_ms = 0;
     std::size_t noticed = 0;  ///< number of gaps above kNoticed_ms
     std::size_t beats = 0;

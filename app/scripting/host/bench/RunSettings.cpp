@@ -64,8 +64,8 @@ Result<Json> setElectrodeArea(ScriptSession& session, const Arguments& arguments
     const auto& stated = session.chosenProfile().electrodeArea;
     if (stated && !(area <= stated->value())) {
         return fail(ErrorCode::InvalidArgument,
-                    "bench.setElectrodeArea: {:g} cm² is larger than the {:g} cm² of the profile; at most that is "
-                    "accepted, or another profile",
+                    "bench.setElectrodeArea: {:g} cm² is larger than the {:g} cm² of the profile; use at most "
+                    "that, or another profile",
                     area, stated->value());
     }
     if (!stated && session.operatorsNumber("area") != area) {

@@ -83,7 +83,7 @@ Result<StoredLine> lineFound(const Json& one, std::string_view quantity) {
     if (one.value("verdict_iec", "") != "pass") {
         return fail(ErrorCode::InvalidArgument,
                     "record.calibration: the stimulator's {} is not within 20 % of what is programmed, uncertainty "
-                    "included (IEC 60601-2-10); a calibration is kept of one that is in order",
+                    "included (IEC 60601-2-10); only then would its calibration be kept",
                     quantity);
     }
     StoredLine line;
