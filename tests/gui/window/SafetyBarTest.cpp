@@ -445,7 +445,7 @@ TEST_F(Bar, APressMeantForDisarmDoesNotResetTheFaultThatCameFirst) {
 
 TEST_F(Bar, SaysThatATrainUnderWayOutlastsThePause) {
     bar.refresh(in(InterlockState::Delivering));
-    EXPECT_TRUE(find<QPushButton>(bar, "Pause")->toolTip().contains("A train that is under way ends by itself"));
+    EXPECT_TRUE(find<QPushButton>(bar, "Pause")->toolTip().contains("The current train finishes within"));
 }
 
 TEST_F(Bar, SaysWhyItFaultedAndThatOutputIsOff) {

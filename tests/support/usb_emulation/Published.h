@@ -29,11 +29,13 @@ void connect(UMockdevIoctlBase* handler, const char* signal, GCallback callback,
     g_signal_connect_data(handler, signal, callback, new std::shared_ptr<T>(emulation), release, GConnectFlags{});
 }
 
-/// Returns the object behind the pointer that umockdev passes back.
+/// Returns the object behind the pointer that umockdev passes back. The pointer is deleted after its last reading.
 template <class T>
 [[nodiscard]] T& seen(void* user) noexcept {
     takeOver();
-    return **static_cast<std::shared_ptr<T>*>(user);
+    T& object = **static_cast<std::shared_ptr<T>*>(user);
+    publish();
+    return object;
 }
 
 }  // namespace tacto::test
