@@ -73,7 +73,8 @@ RunPanel::RunPanel(QWidget* parent)
     left_ = makeLabel(howLong_,
                       {.name = "timeLeft", .tone = Tone::Quiet, .size = TextSize::Small, .wraps = true, .plain = true},
                       this);
-    layout_->addWidget(left_);
+    // Above the button, so that Run stays where it is when there is more to say.
+    layout_->insertWidget(layout_->indexOf(run_), left_);
     showButtons();
 }
 
