@@ -45,9 +45,9 @@ int create(const QCommandLineParser& parser, const std::string& folder) {
     const auto study = Study::create(folder, std::move(*settings), *passphrase);
     if (!study) return failWith(study.error());
     say(stderr,
-        "The keys lie in {}. A lost passphrase or key file is lost data: the investigator and whoever answers for the "
-        "data should each hold a copy of that file on another medium, apart from the passphrase. Write the passphrase "
-        "on paper, seal it and lock it away.\n",
+        "The keys are in {}. Without the passphrase or without this file the data are lost. The investigator and the "
+        "person responsible for the data should each keep a copy of the file on another medium, apart from the "
+        "passphrase. Write the passphrase on paper, seal it and lock it away.\n",
         study->keyFile().string());
     if (const auto valid = approvalGate(study->settings(), study->today()); !valid)
         say(stderr, "No session can begin today: {}.\n", valid.error().message);

@@ -10,6 +10,7 @@
 #include "app/report/ResultCells.h"
 #include "core/analysis/statistics/UncertaintyBudget.h"
 #include "core/base/JsonText.h"
+#include "core/base/Statistics.h"
 #include "core/results/Describe.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
@@ -57,17 +58,11 @@ struct Repeated {
     std::vector<double> values, uncertainties;
     double expanded = kNaN;  ///< of the last reading, if it states U
     [[nodiscard]] double n() const { return static_cast<double>(values.size()); }
-    [[nodiscard]] double mean() const {
-        double sum = 0;
-        for (const double value : values) sum += value;
-        return sum / n();
-    }
+    [[nodiscard]] double mean() const { return statisticsOf(values).mean; }
     /// Returns the square of the mean's standard deviation, NaN for a single reading.
     [[nodiscard]] double scatter() const {
-        const double middle = mean();
-        double sum = 0;
-        for (const double value : values) sum += (value - middle) * (value - middle);
-        return values.size() < 2 ? kNaN : sum / (n() - 1) / n();
+        const double sd = statisticsOf(values).sd;
+        return sd * sd / n();
     }
     /// Returns the mean square of the instrument's standard uncertainty, NaN unless each reading states it.
     [[nodiscard]] double instrument() const {

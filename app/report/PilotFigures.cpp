@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "app/report/FigureDrawing.h"
@@ -10,6 +11,7 @@
 #include "core/analysis/identification/EncodingsOverPeople.h"
 #include "core/analysis/identification/OverSessions.h"
 #include "core/analysis/psychophysics/QuestPlus.h"
+#include "core/analysis/statistics/UncertaintyBudget.h"
 #include "core/base/Statistics.h"
 
 namespace tacto {
@@ -394,7 +396,7 @@ PersonCourse detectionRatios(const StudyPerson& person) {
             first = &now;
             return {0, 0};
         }
-        constexpr double kWidth = 2 * 1.959963984540054;
+        static const double kWidth = 2 * studentQuantile(0.975, std::numeric_limits<double>::infinity());
         const auto ratio = ratioOf(now, *first);
         const double sd = std::log(ratio.high / ratio.low) / kWidth;
         return {std::log(ratio.value), std::isfinite(sd) ? sd * sd : 0};

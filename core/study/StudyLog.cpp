@@ -103,7 +103,7 @@ std::vector<StudyLogKind> describedKinds() {
         {"deficiency",
          "A device deficiency",
          "Device deficiencies",
-         "A fault, a misuse or a wrong label of a device, also where nobody was harmed.",
+         "A fault, a misuse or a wrong label of a device, even if it harmed no one.",
          false,
          {{"serial", "Device and serial number", "", Is::Text, {}, true},
           {"what", "What was deficient", "", Is::Text, {}, true},

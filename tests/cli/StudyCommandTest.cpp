@@ -126,7 +126,7 @@ TEST_F(StudyCli, IsMadeEnrolledInConsentedToShownLeftAndWithdrawnFrom) {
     RecordProperty("hazard", "H11");
     const auto made = create("2099-12-31", {"--set", "blocks=3"});
     ASSERT_EQ(made.code, 0) << made.err;
-    EXPECT_THAT(made.err, HasSubstr("A lost passphrase or key file is lost data"));
+    EXPECT_THAT(made.err, HasSubstr("Without the passphrase or without this file the data are lost"));
     const auto enrolled = study({"enrol", at(), "--virtual", "7"});
     ASSERT_EQ(enrolled.code, 0) << enrolled.err;
     const auto code = jsonOf(enrolled)["code"].get<std::string>();

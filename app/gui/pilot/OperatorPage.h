@@ -75,7 +75,7 @@ private:
     bool blind_ = true;
     bool breakDue_ = false;
     bool vibrates_ = false;  ///< true if a massager delivers
-    bool virtual_ = false;   ///< true if nobody is asked anything
+    bool virtual_ = false;   ///< true for a virtual participant
     PilotCounts kept_;
     Instant at_{0};                      ///< the time of the newest telemetry
     std::optional<PilotPrompt> theirs_;  ///< the question at the participant's screen

@@ -263,7 +263,7 @@ void ParticipantWindow::pressHold() {
 void ParticipantWindow::letGo() {
     heldKey_ = 0;
     if (!desk_.holding()) return;
-    desk_.setHolding(false);  // first: whatever begins from here on sees that nobody holds
+    desk_.setHolding(false);  // first, so that a presentation that begins now sees it
     if (desk_.mayLetGo()) return;
     stop_(kParticipantLetGo);
     face_->hold().hide();

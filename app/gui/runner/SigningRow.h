@@ -15,7 +15,7 @@ public:
     explicit SigningRow(QWidget* parent = nullptr);
     /// Offers to sign this report of this session; an empty report cannot be signed. `by`: the suggested name.
     void offer(const QString& session, const QString& report, const QString& by);
-    /// Who signed and when; empty if nobody has since offer().
+    /// Returns who signed after offer(), and when; empty before that.
     [[nodiscard]] const QString& noted() const { return noted_; }
 
 signals:

@@ -17,8 +17,6 @@ namespace {
 
 using namespace describe;
 
-constexpr double kAtLeast_jnd = 0.01;  // smaller differences are treated as none
-
 std::string levelName(double roughness, double pressure) { return fmt::format("R {} P {}", roughness, pressure); }
 
 bool isUsual(const ComparedEncoding& each) { return each.of.assignment == nameOf(Assignment::TextureToAmplitude); }
@@ -133,7 +131,7 @@ std::string bestCurves(const std::vector<ComparedEncoding>& curves, const Of& of
     const double most = largestOf(values);
     std::vector<std::string> names;
     for (std::size_t i = 0; i < curves.size(); ++i) {
-        if (values[i] > most - kAtLeast_jnd) names.push_back(curves[i].of.curve);
+        if (values[i] > most - kComparedAtLeast_jnd) names.push_back(curves[i].of.curve);
     }
     return fmt::format("{} ({:.2f} JND)", fmt::join(names, " or "), std::abs(most));
 }
@@ -331,7 +329,7 @@ std::string symmetryOfEncodings(double asymmetry_jnd) {
         "is told apart, natural or preferred",
         std::isnan(asymmetry_jnd)
             ? ""
-            : fmt::format(" (measured: within {:.2f} JND)", std::max(kAtLeast_jnd, asymmetry_jnd)));
+            : fmt::format(" (measured: within {:.2f} JND)", std::max(kComparedAtLeast_jnd, asymmetry_jnd)));
 }
 
 std::string sameForAllEncodings(const ComparedEncodings& compared) {

@@ -20,6 +20,7 @@ struct ComparedPlace {
     double roughness = 0, pressure = 0;  ///< 0 to 1
 };
 inline constexpr std::size_t kComparedConditions = 4;
+inline constexpr double kComparedAtLeast_jnd = 0.01;  ///< smaller differences are treated as none
 /// Smooth-low, smooth-high, rough-low and rough-high.
 [[nodiscard]] std::vector<ComparedPlace> comparedConditions(double low, double high);
 /// R and P values of the levels between the conditions.

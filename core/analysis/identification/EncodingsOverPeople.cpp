@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -13,8 +14,6 @@ namespace tacto {
 
 namespace {
 
-constexpr double kNormal95 = 1.959963984540054;
-
 /// Variance of a proportion by its trials, with two right and two wrong answers added, so that it is never 0 (Agresti &
 /// Coull 1998).
 double varianceOf(const EncodingResult& result) {
@@ -24,6 +23,7 @@ double varianceOf(const EncodingResult& result) {
 
 /// By the longer side of the interval: an end may be cut off at 0, or at the most that can be told apart.
 double varianceOf(const Estimate& estimate) {
+    static const double kNormal95 = studentQuantile(0.975, std::numeric_limits<double>::infinity());
     return std::pow(std::max(estimate.high - estimate.value, estimate.value - estimate.low) / kNormal95, 2);
 }
 

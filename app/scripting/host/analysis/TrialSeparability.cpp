@@ -31,16 +31,12 @@ Result<std::vector<SeparabilityTrial>> trialsFrom(const Arguments& arguments, co
     return trials;
 }
 
-Result<Separability> judged(std::span<const SeparabilityTrial> trials, std::vector<std::string> conditions) {
-    return judgeSeparability(trials, {.conditions = std::move(conditions)});
-}
-
 }  // namespace
 
 Result<Separability> separabilityOf(const Arguments& arguments, const Json& rows, std::vector<std::string> conditions) {
     const auto trials = trialsFrom(arguments, rows);
     if (!trials) return failure(trials);
-    return judged(*trials, std::move(conditions));
+    return judgeSeparability(*trials, {.conditions = std::move(conditions)});
 }
 
 namespace {
@@ -48,7 +44,7 @@ namespace {
 Result<Json> separability(ScriptSession&, const Arguments& arguments) {
     const auto trials = trialsFrom(arguments, arguments.list("trials"));
     if (!trials) return failure(trials);
-    const auto found = judged(*trials, arguments.list("options.conditions"));
+    const auto found = judgeSeparability(*trials, {.conditions = arguments.list("options.conditions")});
     if (!found) return failure(found);
     Json out = toJson(*found);
     out["trials"] = resultJson(*trials);

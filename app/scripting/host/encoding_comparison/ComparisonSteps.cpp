@@ -51,8 +51,8 @@ std::string shownText(const Comparison& run, double asymmetry) {
         "{}; "
         "a train, at most: the largest step from train to train when a finger crosses the plane in {} s, computed, "
         "without limits on a step.",
-        std::isnan(asymmetry) ? "?" : fmt::format("{:.2f}", std::max(0.01, asymmetry)), run.low, run.high,
-        fmt::join(kComparedLevels, ", "), run.traverse_s);
+        std::isnan(asymmetry) ? "?" : fmt::format("{:.2f}", std::max(kComparedAtLeast_jnd, asymmetry)), run.low,
+        run.high, fmt::join(kComparedLevels, ", "), run.traverse_s);
 }
 
 Result<Json> begin(ScriptSession& session, const Arguments& arguments) {
