@@ -10,6 +10,7 @@
 #include "core/base/JsonText.h"
 #include "core/base/RecordFields.h"
 #include "core/base/Words.h"
+#include "core/results/Describe.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {
@@ -160,19 +161,34 @@ RecordFields<PlanRow> planFields() {
     return all;
 }
 
-RecordFields<RangeRow> rangeFields(LevelUnit unit) {
+/// The fields of a range row, and their columns in the results that contain it.
+struct RangeDescription {
+    RecordFields<RangeRow> fields = {};
+    describe::Columns columns = {};
+};
+
+RangeDescription describeRange(LevelUnit unit) {
     using R = RangeRow;
-    RecordFields<R> all;
-    all.flag("usable", &R::usable);
-    all.add("reason", &R::reason, textOrNullKind());
-    all.number(levelKey("min", unit), &R::min);
-    all.number(levelKey("max", unit), &R::max);
-    all.number("jnd", &R::jnd);
-    all.word("limited_by", &R::limitedBy, kLevelLimits);
-    if (unit == LevelUnit::Intensity) return all;
-    all.number("min_v", &R::minVoltage);
-    all.number("max_v", &R::maxVoltage);
-    all.number("impedance_ohm", &R::impedance);
+    using As = ResultColumn::As;
+    RangeDescription all;
+    const auto shown = [&all](const FieldInfo& field, const char* title, As as, const char* unitShown = "") {
+        all.columns.push_back({title, field.key, as, unitShown});
+    };
+    const auto level = [&](std::string_view what, double R::*member, const char* title) {
+        shown(all.fields.number(levelKey(what, unit), member), title, As::Number,
+              unit == LevelUnit::Current ? "mA" : "");
+    };
+    shown(all.fields.flag("usable", &R::usable), "The range is usable", As::YesNo);
+    shown(all.fields.add("reason", &R::reason, textOrNullKind()), "Why not", As::Text);
+    level("min", &R::min, "Range, from");
+    level("max", &R::max, "to");
+    if (unit == LevelUnit::Current) {
+        shown(all.fields.number("min_v", &R::minVoltage), "Voltage, from", As::Number, "V");
+        shown(all.fields.number("max_v", &R::maxVoltage), "to", As::Number, "V");
+        shown(all.fields.number("impedance_ohm", &R::impedance), "at", As::Number, "ohm");
+    }
+    shown(all.fields.number("jnd", &R::jnd), "Width (JND)", As::Jnd);
+    shown(all.fields.word("limited_by", &R::limitedBy, kLevelLimits), "Limited by", As::Condition);
     return all;
 }
 
@@ -214,12 +230,14 @@ json toJson(const PlanRow& row) { return builtOnce<planFields>().write(row); }
 
 PlanRow planRowFrom(const json& body) { return rowFrom(builtOnce<planFields>(), body); }
 
-json toJson(const RangeRow& row) { return rangeFields(row.unit).write(row); }
+json toJson(const RangeRow& row) { return describeRange(row.unit).fields.write(row); }
 
 RangeRow rangeRowFrom(const json& body) {
     const auto unit = unitIn(body, "min");
-    return rowFrom(rangeFields(unit), body, {.unit = unit});
+    return rowFrom(describeRange(unit).fields, body, {.unit = unit});
 }
+
+std::vector<ResultColumn> rangeColumns(LevelUnit unit) { return describeRange(unit).columns; }
 
 json toJson(const DriftRow& row) { return driftFields(row.unit).write(row); }
 

@@ -26,6 +26,7 @@
 #include "core/base/Result.h"
 #include "core/base/Statistics.h"
 #include "core/base/Units.h"
+#include "core/results/ResultTable.h"
 #include "core/session/SessionTypes.h"
 
 namespace tacto {
@@ -211,6 +212,8 @@ struct RangeRow {
 };
 [[nodiscard]] nlohmann::json toJson(const RangeRow& row);
 [[nodiscard]] RangeRow rangeRowFrom(const nlohmann::json& body);
+/// Returns the columns of the row in tables of results.
+[[nodiscard]] std::vector<ResultColumn> rangeColumns(LevelUnit unit);
 
 /// Row "drift": the check before a block.
 struct DriftRow {

@@ -85,20 +85,6 @@ ResultRecord<PresentedCondition> describePresented(LevelUnit unit) {
     return all;
 }
 
-/// The columns of a range row (PilotRecord.h).
-Columns rangeColumns(LevelUnit unit) {
-    Columns all{as(As::YesNo, "The range is usable", "usable"), text("Why not", "reason"),
-                level("Range, from", "min", unit), level("to", "max", unit)};
-    if (unit == LevelUnit::Current) {
-        const Columns volts{number("Voltage, from", "min_v", "V"), number("to", "max_v", "V"),
-                            number("at", "impedance_ohm", "ohm")};
-        all.insert(all.end(), volts.begin(), volts.end());
-    }
-    all.push_back(jnd("Width (JND)", "jnd"));
-    all.push_back(as(As::Condition, "Limited by", "limited_by"));
-    return all;
-}
-
 ResultRecord<ThresholdsFound> describeThresholds(LevelUnit unit) {
     using F = ThresholdsFound;
     const auto detection = describeDetection(unit);

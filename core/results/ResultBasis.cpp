@@ -75,6 +75,24 @@ const ResultRecord<ReferenceCheck>& referenceCheckRecord() { return builtOnce<de
 
 nlohmann::json toJson(const KnownLoadCheck& check) { return builtOnce<describeKnownLoad>().write(check); }
 
+nlohmann::json knownLoadTable(const KnownLoadCheck& check) {
+    const auto record = toJson(check);
+    auto row = nlohmann::json::object(), order = nlohmann::json::array();
+    for (const auto& column : builtOnce<describeKnownLoad>().columns()) {
+        if (column.at == "reason") continue;
+        auto cell = record[column.at];
+        if (!column.unit.empty()) cell = {{"value", std::move(cell)}, {"unit", column.unit}};
+        if (!column.beside.empty()) cell["expanded"] = record[column.beside];
+        const auto& key = column.as == ResultColumn::As::Verdict ? column.at : column.title;
+        row[key] = std::move(cell);
+        order.push_back(key);
+    }
+    return {{"kind", "table"},
+            {"caption", "Known-reference check"},
+            {"rows", nlohmann::json::array({row})},
+            {"columns", std::move(order)}};
+}
+
 std::vector<std::string> knownLoadMembers() { return builtOnce<describeKnownLoad>().keys(); }
 
 nlohmann::json toJson(const AbsoluteCheck& check) { return builtOnce<describeAbsolute>().write(check); }

@@ -33,6 +33,8 @@ struct KnownLoadCheck : ReferenceCheck {
 };
 [[nodiscard]] nlohmann::json toJson(const KnownLoadCheck& check);
 [[nodiscard]] std::vector<std::string> knownLoadMembers();
+/// Returns the check as a table of a script's report, without the reason.
+[[nodiscard]] nlohmann::json knownLoadTable(const KnownLoadCheck& check);
 
 /// The reading of a voltage of known size.
 struct AbsoluteCheck : ReferenceCheck {

@@ -135,7 +135,7 @@ TruePhase truthOf(const UnitPulse& pulse, std::size_t k) {
     return truth;
 }
 
-/// The values drawn before sampling. Times are in samples, heights of pulses in `amplitude`.
+/// The values drawn before sampling. Times are in samples; the height of a pulse is `amplitude`.
 struct Plan {
     double rate_hz = 1e6;
     std::size_t samples = 0;

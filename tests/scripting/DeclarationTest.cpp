@@ -115,7 +115,8 @@ TEST(ProtocolDeclaration, NamesFileLineAndWhatIsWrong) {
               "view, parameters");
     EXPECT_EQ(errorOf("protocol({});"), "/lab/probe.js:2: protocol(): title is missing, a text is expected");
     EXPECT_EQ(errorOf("protocol({ title: 'x', needs: ['laser'] });"),
-              "/lab/probe.js:2: needs names \"laser\", only sensor, stimulator, oscilloscope, massager can be needed");
+              "/lab/probe.js:2: \"needs\" contains \"laser\"; only sensor, stimulator, oscilloscope, massager can be "
+              "needed");
     EXPECT_EQ(errorOf("const x = 1;"), "/lab/probe.js:1: the script does not call protocol({ title: ... })");
     EXPECT_NE(errorOf("protocol({ title: 'x' }); protocol({ title: 'y' });"), "");
     EXPECT_NE(errorOf("protocol();"), "");

@@ -226,7 +226,7 @@ QDialog* enrolDialog(OpenStudy& study, std::function<void(const QString& code)> 
                     tr("The same seed is the same virtual participant.")),
          choiceField("enrolGroup", tr("&Group"), groups, {}),
          textField("enrolCode", tr("&Code"), {},
-                   tr("Only where the code comes from elsewhere. Its last character checks the others."),
+                   tr("Type a code only if it was given elsewhere. Its last character is a check character."),
                    tr("a new one is drawn")),
          age, aboutField("enrolSex", tr("Se&x"), kSexes),
          aboutField("enrolHandedness", tr("&Handedness"), kHandednesses)},

@@ -17,7 +17,7 @@ constexpr int kHeaderPad = 10, kRow = 30;
 constexpr int kLongestText = 44;  // most characters of a text column that is not the last
 constexpr int kMinText = 10;      // least characters of a text column if numbers need the room
 constexpr int kMinTextTight = 6;  // the same in a table narrower than a small window
-constexpr int kRoom = 860;        // pixels next to a path in a window of 1280; wider tables get small text
+constexpr int kRoom = 860;        // pixels of a table in a window of 1280; a wider table gets small text
 
 /// Sets the header's height for its longest title.
 void fitHeader(QTableWidget& table) {

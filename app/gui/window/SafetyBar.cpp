@@ -319,9 +319,10 @@ void SafetyBar::showCalibration() {
     if (!counts) text = "⚠ " + text;
     if (calibration_->text() != text) {
         calibration_->setText(text);
-        calibration_->setToolTip(
-            standing ? (counts ? text + ". " : QString()) + titled(whole) + ". " + standingTip(*standing)
-                     : tr("Calibration of the stimulator. Without a valid one it is for bench loads only."));
+        calibration_->setToolTip(standing ? (counts ? text + ". " : QString()) + titled(whole) + ". " +
+                                                standingTip(*standing)
+                                          : tr("Calibration of the stimulator. A stimulator without a valid "
+                                               "calibration is for bench loads only."));
     }
     setTone(*calibration_, counts ? Tone::Text : Tone::Warning);
 }

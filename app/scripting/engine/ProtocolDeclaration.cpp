@@ -18,12 +18,13 @@ Result<std::set<Role>> readNeeds(const Json& given) {
     std::set<Role> needs;
     const Json list = given.value("needs", Json::array());
     if (!list.is_array()) {
-        return fail(ErrorCode::InvalidArgument, "needs is {}, a list of {} is expected", shown(list), namesOf(kRoles));
+        return fail(ErrorCode::InvalidArgument, "\"needs\" is {}; a list of {} is expected", shown(list),
+                    namesOf(kRoles));
     }
     for (const auto& name : list) {
         const auto role = name.is_string() ? valueFor(kRoles, name.get_ref<const std::string&>()) : std::nullopt;
         if (!role) {
-            return fail(ErrorCode::InvalidArgument, "needs names {}, only {} can be needed", shown(name),
+            return fail(ErrorCode::InvalidArgument, "\"needs\" contains {}; only {} can be needed", shown(name),
                         namesOf(kRoles));
         }
         needs.insert(*role);

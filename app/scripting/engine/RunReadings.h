@@ -66,7 +66,7 @@ public:
     /// Returns the readings with these numbers, for one calibration. Errors: InvalidArgument for an unknown number, or
     /// for a reading or capture that occurs twice.
     [[nodiscard]] Result<std::vector<const OwnReading*>> readings(const std::vector<std::int64_t>& numbers) const;
-    /// Remembers the result of a host function that scripts hand on as a whole object.
+    /// Remembers what a host function returned, for results that scripts pass on unchanged.
     void note(nlohmann::json made);
     /// True if note() got exactly this value.
     [[nodiscard]] bool noted(const nlohmann::json& said) const;

@@ -259,7 +259,7 @@ ResultRecord<LoadSafety> describeLoadSafety() {
                    {verdict(), row.column("load", "Load"), row.column("title", "Asked"), text("Would be", "source")},
                    Else::OnlyInTheReport),
               "set", "gate"));
-    all.table(whose(rows("What must end output by itself", "rows",
+    all.table(whose(rows("Faults that must switch the output off", "rows",
                          {verdict(), as(As::Heading, "What", "title"), number("Ended after", "value", "s"),
                           text("Remark", "note"), row.column("reason", "Reason")},
                          Else::OnlyInTheReport),

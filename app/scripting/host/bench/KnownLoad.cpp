@@ -52,19 +52,7 @@ Result<Json> judgeReference(ScriptSession& session, const Json& reading, const K
     Json measured = out;
     measured.erase("reason");
     if (auto kept = writer.measurement(session.now(), "known-reference check", measured); !kept) return failure(kept);
-    const auto withU = [&out](const char* value, const char* u, const char* unit) -> Json {
-        return {{"value", out[value]}, {"expanded", out[u]}, {"unit", unit}};
-    };
-    const Json row = {{"load_ohm", check.load_ohm},
-                      {"measured ± U", withU("measured_ohm", "expanded_ohm", "ohm")},
-                      {"off ± U", withU("deviation_pct", "expanded_uncertainty_pct", "%")},
-                      {"allowed_pct", check.allowed_pct},
-                      {"verdict", check.verdict}};
-    auto shown = writer.reportItem(session.now(),
-                                   {{"kind", "table"},
-                                    {"caption", "Known-reference check"},
-                                    {"rows", Json::array({row})},
-                                    {"columns", {"load_ohm", "measured ± U", "off ± U", "allowed_pct", "verdict"}}});
+    auto shown = writer.reportItem(session.now(), knownLoadTable(check));
     if (!shown) return failure(shown);
     return out;
 }
