@@ -17,6 +17,7 @@
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/Workspaces.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
+#include "app/scripting/engine/ScriptRun.h"
 
 namespace tacto::gui {
 
@@ -31,6 +32,7 @@ public:
 
 protected:
     QVariant loadResource(int type, const QUrl& name) override {
+        if (name.fileName() == "reference.md") return QString::fromStdString(scriptReference());
         if (type != QTextDocument::ImageResource) return QTextBrowser::loadResource(type, name);
         const QImage picture(source().resolved(name).toLocalFile());
         const int width = fontMetrics().averageCharWidth() * (kGuideColumns - 20);
