@@ -1,10 +1,9 @@
 #include "app/cli/CaptureOptions.h"
 
-#include <chrono>
 #include <cmath>
-#include <unistd.h>
 
 #include "app/cli/Command.h"
+#include "app/cli/ProgressBar.h"
 #include "app/run/CaptureFormatsList.h"
 #include "app/run/Shipped.h"
 #include "core/base/LocaleFreeText.h"
@@ -30,31 +29,6 @@ Result<void> addOnce(Map& all, const Entry& entry, const char* option) {
     if (all.emplace(entry.first, entry.second).second) return {};
     return fail(ErrorCode::InvalidArgument, "{}", givenTwice("--{} of {}", option, entry.first));
 }
-
-/// Shows "[#####.....] 52 %" on a terminal if reading takes over a second; the destructor clears the line.
-class ReadingBar {
-public:
-    ReadingBar() : shown_(isatty(STDERR_FILENO) != 0) {}
-    ReadingBar(const ReadingBar&) = delete;
-    ReadingBar& operator=(const ReadingBar&) = delete;
-    ~ReadingBar() {
-        if (percent_ >= 0) say(stderr, "\r\033[K");
-    }
-    void show(double fraction) {
-        constexpr std::chrono::seconds kProgressDelay{1};
-        const auto percent = static_cast<int>(100 * fraction);
-        if (!shown_ || percent == percent_ || std::chrono::steady_clock::now() - begun_ < kProgressDelay) return;
-        percent_ = percent;
-        const auto filled = static_cast<std::size_t>(30 * fraction);
-        say(stderr, "\r\033[Kreading [{}{}] {} %", std::string(filled, '#'), std::string(30 - filled, '.'), percent);
-        std::fflush(stderr);
-    }
-
-private:
-    bool shown_;
-    int percent_ = -1;
-    std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace
 
@@ -139,7 +113,7 @@ Result<ReadOptions> captureOptions(const QCommandLineParser& parser) {
 }
 
 Result<CaptureReading> readCaptureFile(const std::string& path, const ReadOptions& options) {
-    ReadingBar bar;
+    ProgressBar bar("reading");
     return captureFormats()->read(path, options, {[&](double fraction) { bar.show(fraction); }, {}});
 }
 

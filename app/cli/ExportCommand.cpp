@@ -1,16 +1,31 @@
-// export: a study as files for others to read, without codes and dates.
+// export: a session or a study as files for others to read; a study without codes and dates.
+#include <algorithm>
+
 #include "app/cli/Command.h"
+#include "app/cli/ProgressBar.h"
 #include "app/cli/StudyPassphrase.h"
+#include "app/run/SignalStop.h"
+#include "core/exchange/Export.h"
 #include "core/sharing/results/StudyResults.h"
 
 namespace tacto::cli {
 
 namespace {
 
+std::string formatNames() {
+    std::string names;
+    for (const auto* format : exportFormats()) names += fmt::format("{}{}", names.empty() ? "" : ", ", format->name);
+    return names;
+}
+
 void declareExport(QCommandLineParser& parser) {
     parser.addOptions(
-        {{"format", "bids: a BIDS dataset of behavioural files.", "bids"},
-         {"out", "A new or empty folder outside the study.", "DIR"},
+        {{"format",
+          QString::fromStdString("Of a session: " + formatNames() +
+                                 ". Of a study: bids, a dataset of behavioural files."),
+          "FORMAT"},
+         {"out", "A new file or folder; of a study, a new or empty folder outside it.", "PATH"},
+         {"json", "Prints one JSON value."},
          {"with",
           "What else is exported of a participant: age (as a range), sex, handedness; commas between. Withheld where "
           "fewer than three people share it.",
@@ -18,12 +33,41 @@ void declareExport(QCommandLineParser& parser) {
     declarePassphrase(parser);
 }
 
+int exportOne(const QCommandLineParser& parser, const std::string& session) {
+    const auto name = parser.value("format").toStdString();
+    const auto* format = exportFormat(name);
+    if (format == nullptr)
+        return usage(fmt::format("export: --format is \"{}\"; {} are accepted", name, formatNames()));
+    if (parser.isSet("with")) return usage("export: --with is for a study; " + session + " is none");
+    SignalStop interrupts;
+    const auto done = [&] {
+        ProgressBar bar("exporting");
+        return exportSession(
+            session, *format, parser.value("out").toStdString(), TACTOSCOPE_VERSION,
+            {.stopped = [&] { return interrupts.signalled(); }, .progress = [&](double share) { bar.show(share); }});
+    }();
+    if (!done) return done.error().code == ErrorCode::Stopped ? failWith(done.error()) : couldNotRun(done.error());
+    if (parser.isSet("json"))
+        printJson(toJson(*done));
+    else
+        say("{}\n", done->out.string());
+    for (const auto& each : done->leftOut) say(stderr, "tactoscope-cli: left out: {}: {}\n", each.what, each.why);
+    if (!done->damaged) return kDone;
+    say(stderr, "tactoscope-cli: DAMAGED: {} is not what was recorded, and its export says so: {}\n", session,
+        fmt::join(done->problems, "; "));
+    return kVerdictFailed;
+}
+
 int runExport(const QCommandLineParser& parser) {
-    const auto folder = onlyArgument(parser, "STUDY");
+    const auto folder = onlyArgument(parser, "SESSION or STUDY");
     if (!folder) return usage(fmt::format("export: {}", folder.error().message));
     if (!parser.isSet("out")) return usage("export: --out is missing");
-    if (const auto format = parser.value("format").toStdString(); format != "bids")
-        return usage(fmt::format("export: --format is \"{}\"; bids is accepted", format));
+    if (std::error_code error; !std::filesystem::exists(*folder, error))
+        return couldNotRun({ErrorCode::NotFound, fmt::format("there is no session and no study {}", *folder)});
+    if (!Study::isThere(*folder)) return exportOne(parser, *folder);
+    if (const auto format = parser.value("format").toStdString(); !format.empty() && format != "bids")
+        return usage(fmt::format("export: --format is \"{}\"; of a study, bids is accepted", format));
+    if (parser.isSet("json")) return usage("export: --json is for a session; " + *folder + " is a study");
     BidsWith with;
     if (parser.isSet("with")) {
         const auto named = bidsWithFrom(parser.value("with").toStdString());
@@ -41,7 +85,10 @@ int runExport(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kExport{"export", "STUDY --format bids --out DIR [--with LIST] [--passphrase-file F]",
-                      "The results of a study without codes and dates, as a BIDS dataset", declareExport, runExport};
+const Command kExport{"export",
+                      "{SESSION --format FORMAT --out PATH [--json] | "
+                      "STUDY --format bids --out DIR [--with LIST] [--passphrase-file F]}",
+                      "A session as files for other programs; a study's results without codes and dates, as BIDS",
+                      declareExport, runExport};
 
 }  // namespace tacto::cli

@@ -110,15 +110,6 @@ nlohmann::json devicesJson(const std::vector<SessionDevice>& all) {
 
 namespace {
 
-/// What the benches of the session recorded about its marks.
-struct Recorded {
-    std::vector<std::string> flags;
-    bool complete = false;
-    bool uncalibratedStimulator = false;
-    std::string measuredBeyond;          ///< the first such text; empty: none
-    std::vector<double> uncertaintyOfR;  ///< U (expanded uncertainty, 95 %) at R = 0, 0.5 and 1; empty: not known
-};
-
 void addOnce(std::vector<std::string>& all, const std::string& one) {
     if (std::ranges::find(all, one) == all.end()) all.push_back(one);
 }
@@ -132,14 +123,16 @@ std::vector<double> uncertaintyIn(const SessionRow& row) {
 }
 
 /// The uncertainty of R has a meaning only for a calibrated rig.
-std::string uncertaintyText(const Recorded& recorded) {
+std::string uncertaintyText(const RecordedMarks& recorded) {
     const auto& u = recorded.uncertaintyOfR;
     if (u.empty()) return "The uncertainty of R is not known.";
     return fmt::format("U of R (95 %, one slide): {:.2g} at R 0, {:.2g} at R 0.5, {:.2g} at R 1.", u[0], u[1], u[2]);
 }
 
-Recorded recordedIn(const std::vector<SessionRow>& events) {
-    Recorded out;
+}  // namespace
+
+RecordedMarks recordedMarks(const std::vector<SessionRow>& events) {
+    RecordedMarks out;
     std::vector<std::string> early;
     for (const auto& row : events) {
         if (row.name == kMarkEvent) addOnce(early, textOr(row.body, "text"));
@@ -148,14 +141,13 @@ Recorded recordedIn(const std::vector<SessionRow>& events) {
         if (row.name != kMarksEvent) continue;
         out.complete = true;
         for (const auto& flag : textsOr(row.body, "flags")) addOnce(out.flags, flag);
-        if (valueOr(row.body, "stimulator_calibrated") == false) out.uncalibratedStimulator = true;
+        if (const auto calibrated = valueOr(row.body, "stimulator_calibrated"); calibrated.is_boolean())
+            out.stimulatorCalibrated = calibrated.get<bool>() && out.stimulatorCalibrated.value_or(true);
         out.uncertaintyOfR = uncertaintyIn(row);
     }
     if (!out.complete) out.flags = std::move(early);
     return out;
 }
-
-}  // namespace
 
 Result<std::vector<std::string>> sessionMarks(const SessionReader& session) {
     const auto delivered = deliveredIn(session);
@@ -164,11 +156,11 @@ Result<std::vector<std::string>> sessionMarks(const SessionReader& session) {
     if (!events) return failure(events);
     const auto& about = session.about();
     auto marks = originMarks(about, *delivered);
-    const auto recorded = recordedIn(*events);
+    const auto recorded = recordedMarks(*events);
     const auto measured = session.measurements();
     if (!measured) return failure(measured);
     const bool calibrates = std::ranges::find(*measured, kCalibrationMeasurement, &SessionRow::name) != measured->end();
-    if (recorded.uncalibratedStimulator)
+    if (recorded.stimulatorCalibrated == false)
         marks.emplace_back(calibrates ? kNotCalibratedBefore : "The stimulator is not calibrated.");
     if (!recorded.measuredBeyond.empty()) marks.push_back(recorded.measuredBeyond);
     marks.insert(marks.end(), recorded.flags.begin(), recorded.flags.end());

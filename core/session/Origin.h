@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,6 +54,16 @@ struct Delivered {
 
 /// The mark of a run whose readings become a calibration.
 inline constexpr const char* kNotCalibratedBefore = "Before this run the stimulator was not calibrated.";
+
+/// What the benches of a session recorded about its marks.
+struct RecordedMarks {
+    std::vector<std::string> flags;  ///< by their names in science.md: "uncalibrated R"
+    bool complete = false;           ///< whether a bench closed and wrote them
+    std::optional<bool> stimulatorCalibrated;
+    std::string measuredBeyond;          ///< the first such text; empty: none
+    std::vector<double> uncertaintyOfR;  ///< U (expanded uncertainty, 95 %) at R = 0, 0.5 and 1; empty: not known
+};
+[[nodiscard]] RecordedMarks recordedMarks(const std::vector<SessionRow>& events);
 
 /// Returns the marks as sentences, and the flags by their names in science.md ("uncalibrated R"). Errors: as
 /// SessionReader::events() and commands().

@@ -1,0 +1,21 @@
+#include <algorithm>
+#include <array>
+
+#include "core/exchange/Export.h"
+#include "core/exchange/csv/CsvExport.h"
+
+namespace tacto {
+
+std::span<const ExportFormat* const> exportFormats() {
+    static const std::array<const ExportFormat*, 1> formats{
+        &csvExport(),
+    };
+    return formats;
+}
+
+const ExportFormat* exportFormat(std::string_view name) {
+    const auto found = std::ranges::find(exportFormats(), name, &ExportFormat::name);
+    return found == exportFormats().end() ? nullptr : *found;
+}
+
+}  // namespace tacto
