@@ -5,6 +5,7 @@
 
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/TabbedPage.h"
+#include "app/gui/theme/TableText.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
@@ -69,18 +70,21 @@ void ResultTables::addHeading(const std::string& title) {
 }
 
 void ResultTables::addFacts(const ResultTable& table, const json& record) {
-    auto* form = new QFormLayout;
+    auto* holder = new QWidget(body_);
+    auto* form = layoutIn<QFormLayout>(*holder, -1, {});
     form->setHorizontalSpacing(24);
     for (const auto& column : table.columns) {
         if (memberAt(record, column.at).is_null()) continue;
         auto one = columnText(column, json::array({record}));
-        auto* shown = makeLabel(one.cells.first(), {.wraps = true, .plain = true, .selectable = true}, body_);
-        auto* name = makeLabel(one.header.replace('\n', ' '), {.tone = Tone::Quiet, .plain = true}, body_);
+        auto* shown = makeLabel(one.cells.first(), {.wraps = true, .plain = true, .selectable = true}, holder);
+        auto* name = makeLabel(one.header.replace('\n', ' '), {.tone = Tone::Quiet, .plain = true}, holder);
         form->addRow(name, shown);
     }
-    if (form->rowCount() == 0) return delete form;
+    if (form->rowCount() == 0) return delete holder;
+    holder->setAccessibleName(qtext(table.title));
+    copyAsTable(*holder);
     addHeading(table.title);
-    column_->addLayout(form);
+    column_->addWidget(holder);
 }
 
 void ResultTables::addRows(const ResultTable& table, const json& records) {

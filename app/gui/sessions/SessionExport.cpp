@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/gui/theme/TableText.h"
+#include "app/gui/theme/Text.h"
 #include "core/base/JsonText.h"
 #include "core/base/WholeFile.h"
 #include "core/measure/CaptureDescription.h"
@@ -98,7 +100,7 @@ std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.1
 
 std::string quoted(const std::string& text) {
     std::string out = "\"";
-    for (const char c : text) {
+    for (const char c : inertCell(qtext(text)).toStdString()) {
         if (c == '"') out += '"';
         out += c;
     }

@@ -6,10 +6,12 @@
 #include <QContextMenuEvent>
 #include <QHeaderView>
 #include <QKeyEvent>
+#include <QLabel>
 #include <QMenu>
 #include <QMessageBox>
 #include <QRegularExpression>
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <set>
 
@@ -32,8 +34,8 @@ struct CellFigure {
 bool isMissing(const QString& cell) { return cell.isEmpty() || cell == QStringLiteral("–"); }
 
 std::optional<CellFigure> figureIn(const QString& cell) {
-    static const QRegularExpression form(
-        QStringLiteral("\\A([-−]?[0-9]+(?:\u202f[0-9]{3})*(?:\\.[0-9]+)?)(?:\u202f([^0-9\\s]\\S*))?\\z"));
+    static const QRegularExpression form(QStringLiteral(
+        "\\A([-−]?[0-9]+(?:\u202f[0-9]{3})*(?:\\.[0-9]+)?)(?:\u202f([^0-9\\s\u202f±][^\\s\u202f]*))?\\z"));
     const auto found = form.match(cell);
     if (!found.hasMatch()) return std::nullopt;
     auto number = found.captured(1).remove(QChar(0x202f)).replace(QChar(0x2212), '-');
@@ -83,12 +85,57 @@ void settle(QString& heading, QStringList& cells) {
     if (!unit.isEmpty()) heading += QStringLiteral(" (%1)").arg(unit);
 }
 
-QString quotedCell(const QString& cell, QChar separator) {
+QString quotedCell(const QString& whole, QChar separator) {
+    const auto cell = inertCell(whole);
     static constexpr QChar kSpecial[] = {QChar('"'), QChar('\n'), QChar('\r')};
     const bool special =
         cell.contains(separator) || std::ranges::any_of(kSpecial, [&](QChar each) { return cell.contains(each); });
     return special ? '"' + QString(cell).replace('"', QStringLiteral("\"\"")) + '"' : cell;
 }
+
+constexpr const char* kCopiedForm = "copiedAsTable";
+
+/// Returns the widget with a form of facts that `watched` is or belongs to; null if there is none.
+QWidget* formOf(QObject* watched) {
+    if (!watched->isWidgetType()) return nullptr;
+    for (auto* widget = static_cast<QWidget*>(watched); widget != nullptr && !widget->isWindow();
+         widget = widget->parentWidget())
+        if (widget->property(kCopiedForm).toBool()) return widget;
+    return nullptr;
+}
+
+TableText textOfForm(const QWidget& holder) {
+    const auto* form = qobject_cast<const QFormLayout*>(holder.layout());
+    return form != nullptr ? textOf(*form) : TableText{};
+}
+
+QString selectedIn(const QObject* watched) {
+    const auto* label = qobject_cast<const QLabel*>(watched);
+    return label != nullptr ? label->selectedText() : QString();
+}
+
+/// Makes a menu for `owner`. The keys are the widget's own; the menu only shows them.
+class CopyMenu {
+public:
+    explicit CopyMenu(QWidget& owner) : owner_(owner), menu_(new QMenu(&owner)) {
+        menu_->setObjectName("tableMenu");
+        menu_->setAttribute(Qt::WA_DeleteOnClose);
+    }
+    void add(const QString& text, QKeySequence::StandardKey key, std::function<void()> act) const {
+        const auto keys = QKeySequence(key).toString(QKeySequence::NativeText);
+        QObject::connect(menu_->addAction(keys.isEmpty() ? text : text + '\t' + keys), &QAction::triggered, &owner_,
+                         std::move(act));
+    }
+    void popUp(const QContextMenuEvent& event, std::function<void()> save) const {
+        menu_->addSeparator();
+        add(QObject::tr("Save as CS&V…"), QKeySequence::UnknownKey, std::move(save));
+        menu_->popup(event.globalPos());
+    }
+
+private:
+    QWidget& owner_;
+    QMenu* menu_;
+};
 
 /// Returns the table that an event goes to: by its viewport or a heading; null for other widgets and for calendars.
 QTableView* tableOf(QObject* watched) {
@@ -104,7 +151,7 @@ QTableView* tableOf(QObject* watched) {
 }
 
 /// "Limits on each load" → "limits-on-each-load".
-QString fileNameOf(const QTableView& table) {
+QString fileNameOf(const QWidget& table) {
     auto name = table.accessibleName().isEmpty() ? table.objectName() : table.accessibleName();
     static const QRegularExpression other("[^a-z0-9]+");
     name = name.toLower().replace(other, "-");
@@ -154,6 +201,31 @@ TableText textOf(const QTableView& table, const QItemSelection* only) {
     return kept;
 }
 
+TableText textOf(const QFormLayout& facts) {
+    const auto labelAt = [&](int row, QFormLayout::ItemRole role) {
+        const auto* item = facts.itemAt(row, role);
+        const auto* label = item != nullptr ? qobject_cast<const QLabel*>(item->widget()) : nullptr;
+        return label != nullptr ? label->text() : QString();
+    };
+    TableText all{{QObject::tr("Name"), QObject::tr("Value")}, {}};
+    for (int row = 0; row < facts.rowCount(); ++row) {
+        auto name = labelAt(row, QFormLayout::LabelRole).simplified();
+        QStringList value{labelAt(row, QFormLayout::FieldRole)};
+        settle(name, value);
+        all.rows.push_back({name, value.front()});
+    }
+    return all;
+}
+
+void copyAsTable(QWidget& holder) { holder.setProperty(kCopiedForm, true); }
+
+QString inertCell(const QString& cell) {
+    const auto first = cell.isEmpty() ? QChar() : cell.front();
+    bool number = false;
+    if (first == '+' || first == '-') static_cast<void>(cell.toDouble(&number));
+    return !number && !first.isNull() && QStringLiteral("=+-@\t\r\n").contains(first) ? '\'' + cell : cell;
+}
+
 QString separated(const TableText& table, QChar separator) {
     QString text;
     const auto add = [&](const QStringList& cells) {
@@ -188,19 +260,19 @@ void TableCopies::copy(const QTableView& table) {
     QApplication::clipboard()->setText(separated(chosen, '\t'));
 }
 
-void TableCopies::askSave(QTableView& table) {
+void TableCopies::askSave(QWidget& asking, const TableText& table) {
     const FileQuestion question{.title = tr("Save the table as CSV"),
                                 .wants = FileQuestion::Wants::NewFile,
                                 .filters = {tr("Tables (*.csv)")},
-                                .name = fileNameOf(table) + ".csv",
+                                .name = fileNameOf(asking) + ".csv",
                                 .suffix = "csv"};
-    askForFile(table, question, [&table, text = separated(textOf(table), ',')](const QString& path) {
+    askForFile(asking, question, [&asking, text = separated(table, ',')](const QString& path) {
         const auto written = writeWholeFile(path.toStdString(), text.toStdString());
         if (written) return tell(tr("The table is saved to %1.").arg(path));
         openDialog(new QMessageBox(QMessageBox::Warning, tr("Not saved"),
                                    tr("%1 was not saved: %2. An existing file of that name was not changed.")
                                        .arg(path, qtext(written.error().message)),
-                                   QMessageBox::Ok, &table));
+                                   QMessageBox::Ok, &asking));
     });
 }
 
@@ -212,27 +284,33 @@ bool TableCopies::eventFilter(QObject* watched, QEvent* event) {
         if (table->selectionMode() == one || table->selectionMode() == none)
             table->setSelectionMode(QAbstractItemView::ExtendedSelection);
     } else if (event->type() == QEvent::KeyPress) {
-        auto* table = qobject_cast<QTableView*>(watched);
-        if (table == nullptr || tableOf(table) == nullptr) return false;
         if (!static_cast<QKeyEvent*>(event)->matches(QKeySequence::Copy)) return false;
-        copy(*table);
+        if (const auto* table = qobject_cast<QTableView*>(watched); table != nullptr && tableOf(watched) != nullptr) {
+            copy(*table);
+            return true;
+        }
+        const auto* form = formOf(watched);
+        if (form == nullptr || !selectedIn(watched).isEmpty()) return false;
+        QApplication::clipboard()->setText(separated(textOfForm(*form), '\t'));
         return true;
     } else if (event->type() == QEvent::ContextMenu) {
-        auto* table = tableOf(watched);
-        if (table == nullptr || table->contextMenuPolicy() == Qt::NoContextMenu) return false;
-        auto* menu = new QMenu(table);
-        menu->setObjectName("tableMenu");
-        menu->setAttribute(Qt::WA_DeleteOnClose);
-        // The keys are the table's own; the menu only shows them.
-        const auto add = [&](const QString& text, QKeySequence::StandardKey key, auto act) {
-            auto* action = menu->addAction(text + '\t' + QKeySequence(key).toString(QKeySequence::NativeText));
-            connect(action, &QAction::triggered, table, act);
-        };
-        add(tr("&Copy"), QKeySequence::Copy, [table] { copy(*table); });
-        add(tr("Select &all"), QKeySequence::SelectAll, [table] { table->selectAll(); });
-        menu->addSeparator();
-        connect(menu->addAction(tr("Save as CS&V…")), &QAction::triggered, table, [table] { askSave(*table); });
-        menu->popup(static_cast<QContextMenuEvent*>(event)->globalPos());
+        const auto& asked = *static_cast<QContextMenuEvent*>(event);
+        if (auto* table = tableOf(watched); table != nullptr) {
+            if (table->contextMenuPolicy() == Qt::NoContextMenu) return false;
+            const CopyMenu menu(*table);
+            menu.add(tr("&Copy"), QKeySequence::Copy, [table] { copy(*table); });
+            menu.add(tr("Select &all"), QKeySequence::SelectAll, [table] { table->selectAll(); });
+            menu.popUp(asked, [table] { askSave(*table, textOf(*table)); });
+            return true;
+        }
+        auto* form = formOf(watched);
+        if (form == nullptr) return false;
+        const CopyMenu menu(*form);
+        const auto put = [](const QString& text) { return [text] { QApplication::clipboard()->setText(text); }; };
+        if (const auto chosen = selectedIn(watched); !chosen.isEmpty())
+            menu.add(tr("Copy the selected &text"), QKeySequence::Copy, put(chosen));
+        menu.add(tr("&Copy as a table"), QKeySequence::UnknownKey, put(separated(textOfForm(*form), '\t')));
+        menu.popUp(asked, [form] { askSave(*form, textOfForm(*form)); });
         return true;
     }
     return false;

@@ -303,7 +303,7 @@ bool Workspaces::canExport() const {
 void Workspaces::askExport() {
     if (showsScope() && scope_->hasPicture()) return scope_->askSaveData();
     if (auto* button = exportButtonOf(*currentWidget())) return button->click();
-    if (auto* table = tableOn(*currentWidget())) TableCopies::askSave(*table);
+    if (auto* table = tableOn(*currentWidget())) TableCopies::askSave(*table, textOf(*table));
 }
 
 bool Workspaces::canClose() const {

@@ -1,4 +1,5 @@
 // Runs every shipped protocol and tests that the tables of its result show no internal key.
+#include <QClipboard>
 #include <QFormLayout>
 #include <QHeaderView>
 #include <QPushButton>
@@ -60,6 +61,15 @@ TEST_P(Results, ShowNoKeyAndNeedNoScrollingSideways) {
     ASSERT_FALSE(tables.empty());
     shot(*workspace, QString("tables_%1").arg(GetParam()));
     EXPECT_TRUE(tables.findChildren<QTreeWidget*>().isEmpty());
+    for (const auto* form : tables.findChildren<QFormLayout*>()) {  // facts are copied with a row for each
+        auto* value = form->itemAt(0, QFormLayout::FieldRole)->widget();
+        QTest::keyClick(value, Qt::Key_C, Qt::ControlModifier);
+        const auto copied = QGuiApplication::clipboard()->text();
+        EXPECT_GT(copied.count('\n'), form->rowCount()) << copied.toStdString();
+        EXPECT_TRUE(copied.contains(
+            qobject_cast<const QLabel*>(form->itemAt(0, QFormLayout::LabelRole)->widget())->text().simplified()))
+            << copied.toStdString();
+    }
     const auto texts = textsIn(tables);
     EXPECT_GT(texts.size(), 5U);
     for (const auto& text : texts) EXPECT_FALSE(looksLikeAKey(text)) << text.toStdString();

@@ -2,7 +2,9 @@
 #include <QClipboard>
 #include <QFile>
 #include <QFileDialog>
+#include <QFormLayout>
 #include <QGuiApplication>
+#include <QLabel>
 #include <QMenu>
 #include <QTableWidget>
 #include <QTemporaryDir>
@@ -132,6 +134,94 @@ TEST(TableText, UnitsStandInHeadingsAndNumbersAreNumbers) {
         EXPECT_EQ(row[4], QString("100%1").arg(r));
         EXPECT_EQ(row[5], r % 2 == 0 ? "1\u202fV" : "2\u202fs");
     }
+}
+
+/// Python says what a number is, and writes what OWASP's rule asks for.
+std::vector<QStringList> inertByPython(const QStringList& cells) {
+    QProcess python;
+    python.start("python3", {"-c",
+                             "import json,sys\n"
+                             "def number(t):\n"
+                             "  try: return t[0] in '+-' and float(t) is not None\n"
+                             "  except ValueError: return False\n"
+                             "print(json.dumps([(\"'\" if t[:1] in tuple('=+-@\\t\\r\\n') and not number(t) else '')"
+                             "+t for t in json.load(sys.stdin)]))"});
+    python.write(QJsonDocument(QJsonArray::fromStringList(cells)).toJson());
+    python.closeWriteChannel();
+    EXPECT_TRUE(python.waitForFinished(60'000) && python.exitCode() == 0)
+        << python.readAllStandardError().toStdString();
+    std::vector<QStringList> rows{{"head"}};
+    for (const auto& cell : QJsonDocument::fromJson(python.readAllStandardOutput()).array())
+        rows.push_back({cell.toString()});
+    return rows;
+}
+
+TEST(TableText, TextsThatASpreadsheetWouldCalculateAreTextsAndNumbersStayNumbers) {
+    std::mt19937 random(4904);
+    static const QStringList kPieces{"=",       "+", "-",   "@",  "\t", "\r",
+                                     "\n",      "1", "2.5", "e3", ".",  "cmd|' /C calc'!A0",
+                                     "SUM(A1)", " ", "a",   "'",  "V",  "µ"};
+    gui::TableText table{{"head"}, {}};
+    QStringList cells;
+    for (int trial = 0; trial < 2000; ++trial) {
+        QString cell;
+        for (auto n = 1 + random() % 4; n > 0; --n) cell += kPieces[int(random() % unsigned(kPieces.size()))];
+        cells << cell;
+        table.rows.push_back({cell});
+    }
+    const auto expected = inertByPython(cells);
+    for (const QChar separator : {QChar('\t'), QChar(',')}) {
+        const auto read = readByPython({{separated(table, separator), separator}}).front();
+        ASSERT_EQ(read.size(), expected.size());
+        for (std::size_t i = 0; i < read.size(); ++i)
+            EXPECT_EQ(read[i], expected[i]) << read[i].join('|').toStdString() << expected[i].join('|').toStdString();
+    }
+}
+
+TEST(TableText, AFormOfFactsIsCopiedWithAUnitBesideEachName) {
+    QWidget window, other(&window), facts(&window);
+    auto* form = new QFormLayout(&facts);
+    const std::pair<QString, QString> rows[] = {{"Peak (mA)", "−1.5"},
+                                                {"Charge", quantityText(2.5e-6, "C")},
+                                                {"Load", "R2, =dry"},
+                                                {"Note", "=1+1"},
+                                                {"Accuracy", "0.93\u202f±\u202f0.02"}};
+    for (const auto& [name, value] : rows) {
+        auto* shown = new QLabel(value, &facts);
+        shown->setTextInteractionFlags(Qt::TextSelectableByMouse);
+        form->addRow(new QLabel(name, &facts), shown);
+    }
+    facts.setAccessibleName("Facts of a run");
+    gui::copyAsTable(facts);
+    window.show();
+    auto* value = qobject_cast<QLabel*>(form->itemAt(1, QFormLayout::FieldRole)->widget());
+    const std::vector<QStringList> expected{{"Name", "Value"},    {"Peak (mA)", "-1.5"}, {"Charge (µC)", "2.500"},
+                                            {"Load", "R2, =dry"}, {"Note", "'=1+1"},     {"Accuracy", rows[4].second}};
+    QTest::keyClick(value, Qt::Key_C, Qt::ControlModifier);
+    auto read = readByPython({{clipped(), '\t'}}).front();
+    ASSERT_EQ(read.size(), expected.size());
+    EXPECT_DOUBLE_EQ(std::exchange(read[2][1], expected[2][1]).toDouble(), 2.5);
+    EXPECT_EQ(read, expected);
+    value->setSelection(0, 3);
+    QTest::keyClick(value, Qt::Key_C, Qt::ControlModifier);
+    EXPECT_EQ(clipped(), value->selectedText()) << "what is selected goes first";
+    const auto menuOf = [&](QWidget& at) {
+        QContextMenuEvent asks(QContextMenuEvent::Mouse, QPoint(1, 1), at.mapToGlobal(QPoint(1, 1)));
+        QCoreApplication::sendEvent(&at, &asks);
+        return facts.findChild<QMenu*>("tableMenu");
+    };
+    EXPECT_EQ(menuOf(other), nullptr);
+    auto* menu = menuOf(*value);
+    ASSERT_NE(menu, nullptr);
+    for (auto* action : menu->actions())
+        if (action->text().contains("as a table")) action->trigger();
+    EXPECT_EQ(readByPython({{clipped(), '\t'}}).front().size(), expected.size());
+    menu->actions().back()->trigger();
+    menu->close();
+    auto* chooser = facts.findChild<QFileDialog*>("fileChooser");
+    ASSERT_NE(chooser, nullptr);
+    EXPECT_TRUE(chooser->selectedFiles().front().endsWith("/facts-of-a-run.csv"));
+    chooser->close();
 }
 
 TEST(TableText, TheMenuSavesAsCsvAndSaysWhere) {
