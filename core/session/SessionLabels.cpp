@@ -89,6 +89,25 @@ Result<void> checkText(std::string_view title, const std::string& text, std::siz
     return {};
 }
 
+Result<void> takesAnnotation(const std::filesystem::path& session, const SessionReader& reader) {
+    const auto name = session.filename().string();
+    const std::filesystem::path journal = session.string() + "-wal";
+    std::error_code error;  // set for a name that is too long; then no journal exists
+    if (!reader.closed() || std::filesystem::exists(journal, error)) {
+        return fail(ErrorCode::Unsupported,
+                    "session {} has no end mark: it is being recorded, or was interrupted. It is kept as it is, "
+                    "without changes",
+                    name);
+    }
+    const auto writable = std::filesystem::perms::owner_write | std::filesystem::perms::group_write |
+                          std::filesystem::perms::others_write;
+    if ((std::filesystem::status(session, error).permissions() & writable) == std::filesystem::perms::none) {
+        return fail(ErrorCode::Io,
+                    "session {} is read-only, and nothing in it was changed. Make the file writable first", name);
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<void> checkLabels(const SessionLabels& labels) {
@@ -116,29 +135,12 @@ void applyLabels(const nlohmann::json& body, SessionLabels& labels) {
 }
 
 Result<void> takesLabels(const std::filesystem::path& session, const SessionReader& reader) {
-    const auto name = session.filename().string();
-    const std::filesystem::path journal = session.string() + "-wal";
-    std::error_code error;  // set for a name that is too long; then no journal exists
-    if (!reader.closed() || std::filesystem::exists(journal, error)) {
-        return fail(ErrorCode::Unsupported,
-                    "session {} has no end mark: it is being recorded, or was interrupted. It is kept as it is, "
-                    "without changes",
-                    name);
-    }
-    if (reader.sealed()) {
-        return fail(
-            ErrorCode::Unsupported,
-            "session {} is sealed: operator, sample, tags and note would stand in it unsealed. It is kept as it "
-            "is; the study's own notes are sealed",
-            name);
-    }
-    const auto writable = std::filesystem::perms::owner_write | std::filesystem::perms::group_write |
-                          std::filesystem::perms::others_write;
-    if ((std::filesystem::status(session, error).permissions() & writable) == std::filesystem::perms::none) {
-        return fail(ErrorCode::Io,
-                    "session {} is read-only, and nothing in it was changed. Make the file writable first", name);
-    }
-    return {};
+    if (auto takes = takesAnnotation(session, reader); !takes) return takes;
+    if (!reader.sealed()) return {};
+    return fail(ErrorCode::Unsupported,
+                "session {} is sealed: operator, sample, tags and note would stand in it unsealed. It is kept as it "
+                "is; the study's own notes are sealed",
+                session.filename().string());
 }
 
 void takeEdit(const SessionLabels& shown, const SessionLabels& edited, SessionLabels& onto) {
@@ -155,7 +157,7 @@ Result<void> annotateSession(const std::filesystem::path& session,
     auto body = bodyFor(*reader);
     if (!body) return failure(body);
     if (body->empty()) return {};
-    if (auto takes = takesLabels(session, *reader); !takes) return takes;
+    if (auto takes = takesAnnotation(session, *reader); !takes) return takes;
     if (!held) {
         return fail(ErrorCode::Io,
                     "session {} is locked: another program is changing it. Nothing was changed; try again", name);
@@ -191,7 +193,10 @@ Result<SessionLabels> saveLabels(const std::filesystem::path& session, const Ses
         if (!before) return failure(before);
         now = *before;
         takeEdit(shown, edited, now);
-        return changesFrom(*before, now);
+        auto changes = changesFrom(*before, now);
+        if (changes.empty()) return changes;
+        if (auto takes = takesLabels(session, reader); !takes) return failure(takes);
+        return changes;
     });
     if (!added) return failure(added);
     return now;

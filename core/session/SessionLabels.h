@@ -30,8 +30,8 @@ inline constexpr std::size_t kMaxTags = 20;
 /// empty, holds a comma or appears twice; too many tags.
 [[nodiscard]] Result<void> checkLabels(const SessionLabels& labels);
 
-/// Checks that `session`, which `reader` reads, can be changed. Errors: Unsupported if it has no end mark (it is being
-/// recorded, or was interrupted); Io if it is read-only.
+/// Checks that the labels of `session`, which `reader` reads, can be changed. Errors: Unsupported if it has no end mark
+/// (it is being recorded, or was interrupted) or is sealed; Io if it is read-only.
 [[nodiscard]] Result<void> takesLabels(const std::filesystem::path& session, const SessionReader& reader);
 
 /// Copies to `onto` each field in which `edited` differs from `shown`. The list of tags is one field.
@@ -44,8 +44,9 @@ void takeEdit(const SessionLabels& shown, const SessionLabels& edited, SessionLa
 [[nodiscard]] Result<SessionLabels> saveLabels(const std::filesystem::path& session, const SessionLabels& shown,
                                                const SessionLabels& edited);
 
-/// Adds a row with the body that `bodyFor` returns and the present time; adds none if the body is empty. The session is
-/// locked from before `bodyFor` reads it. Errors: as `bodyFor` and saveLabels().
+/// Adds a row with the body that `bodyFor` returns and the present time; adds none if the body is empty. The row is not
+/// sealed, also in a sealed session. The session is locked from before `bodyFor` reads it. Errors: as `bodyFor` and
+/// saveLabels(), but for a sealed session.
 [[nodiscard]] Result<void> annotateSession(const std::filesystem::path& session,
                                            const std::function<Result<nlohmann::json>(const SessionReader&)>& bodyFor);
 

@@ -10,6 +10,7 @@
 #include "core/session/Database.h"
 #include "core/session/Digest.h"
 #include "core/session/SessionLabels.h"
+#include "core/session/SessionReader.h"
 #include "core/session/SessionSource.h"
 
 namespace tacto {
@@ -29,11 +30,14 @@ Result<std::string> hashOf(const std::filesystem::path& report) {
     return sha256Hex(*bytes);
 }
 
-/// Returns the file's name if it lies beside the session, so that both can be moved together.
-std::string placeOf(const std::filesystem::path& session, const std::filesystem::path& report) {
+/// Returns the file's name if it lies beside the session, so that both can be moved together. Other paths could name a
+/// participant, so a sealed session keeps only a name that is its own.
+std::string placeOf(const std::filesystem::path& session, const std::filesystem::path& report, bool sealed) {
     const auto whole = std::filesystem::absolute(report).lexically_normal();
-    const auto folder = std::filesystem::absolute(session).lexically_normal().parent_path();
-    return whole.parent_path() == folder ? whole.filename().string() : whole.string();
+    const auto own = std::filesystem::absolute(session).lexically_normal();
+    const bool beside = whole.parent_path() == own.parent_path();
+    if (sealed && (!beside || whole.stem() != own.stem())) return {};
+    return beside ? whole.filename().string() : whole.string();
 }
 
 }  // namespace
@@ -56,8 +60,9 @@ Result<SessionSignature> signReport(const std::filesystem::path& session, const 
     }
     const auto hash = hashOf(report);
     if (!hash) return failure(hash);
-    SessionSignature signature{by, {}, placeOf(session, report), *hash};
-    const auto added = annotateSession(session, [&](const SessionReader&) -> Result<nlohmann::json> {
+    SessionSignature signature{by, {}, {}, *hash};
+    const auto added = annotateSession(session, [&](const SessionReader& reader) -> Result<nlohmann::json> {
+        signature.report = placeOf(session, report, reader.sealed());
         return nlohmann::json{
             {"signed", {{"by", signature.by}, {"report", signature.report}, {"sha256", signature.sha256}}}};
     });
@@ -102,7 +107,8 @@ std::vector<CheckedSignature> checkSignatures(const std::filesystem::path& sessi
 
 std::string sentenceOf(const CheckedSignature& signature) {
     const auto& [signed_, state] = signature;
-    const auto said = fmt::format("{} signed {} at {}", signed_.by, signed_.report, signed_.wall);
+    const auto said = fmt::format("{} signed {} at {}", signed_.by,
+                                  signed_.report.empty() ? "a report" : signed_.report, signed_.wall);
     switch (state) {
         case SignedReport::Unchanged:
             return said + "; it is unchanged since.";
@@ -113,7 +119,9 @@ std::string sentenceOf(const CheckedSignature& signature) {
         case SignedReport::Missing:
             break;
     }
-    return fmt::format("{}; it is not there to be checked: its SHA-256 was {}.", said, signed_.sha256);
+    return fmt::format("{}; it is {} to be checked: its SHA-256 was {}.", said,
+                       signed_.report.empty() ? "kept elsewhere, where a sealed session does not look" : "not there",
+                       signed_.sha256);
 }
 
 }  // namespace tacto

@@ -4,6 +4,9 @@
 // and the report's SHA-256, so that a report that is changed afterwards is noticed. It says who the program was told
 // has signed; a signature by hand or in the PDF is not read.
 //
+// In a sealed session the row is not sealed either, since whoever verifies it without a key must see it: it holds no
+// word of the participant, and of the report's place only a name that is the session's own.
+//
 //   {"wall": "2026-11-20T14:03:05Z", "signed": {"by": "A. Lind", "report": "run.pdf", "sha256": "64 digits"}}
 //
 // Thread-safety: any thread and several programs, as saveLabels().
@@ -22,13 +25,14 @@ namespace tacto {
 struct SessionSignature {
     std::string by;
     std::string wall;    ///< ISO 8601 UTC
-    std::string report;  ///< the file's name beside the session, or its whole path elsewhere
+    std::string report;  ///< the file's name beside the session, or its whole path elsewhere; may be empty if sealed
     std::string sha256;  ///< of the report as it was signed, 64 hexadecimal digits
     bool operator==(const SessionSignature&) const = default;
 };
 
 /// Adds a signature of `report` as it is now. Blocks while the session is copied. Errors: InvalidArgument for a name
-/// that is empty or longer than kLabelLimit; NotFound or Io if the report cannot be read; as saveLabels() otherwise.
+/// that is empty or longer than kLabelLimit; NotFound or Io if the report cannot be read; as annotateSession()
+/// otherwise.
 [[nodiscard]] Result<SessionSignature> signReport(const std::filesystem::path& session,
                                                   const std::filesystem::path& report, const std::string& by);
 

@@ -107,6 +107,9 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
 Result<SessionStore> SessionStore::annotate(const std::filesystem::path& path) {
     auto store = continued(path);
     if (!store) return store;
+    const auto version = store->database_->number("PRAGMA user_version");
+    if (!version) return failure(version);
+    if (*version == kSealedVersion) return store;  // programs that know sealed rows know annotations
     auto set = store->database_->execute(fmt::format("PRAGMA user_version={}", kAnnotatedVersion));
     if (!set) return failure(set);
     return store;

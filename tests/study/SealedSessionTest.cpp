@@ -3,6 +3,8 @@
 
 #include "core/session/Origin.h"
 #include "core/session/SessionIndex.h"
+#include "core/session/SessionLabels.h"
+#include "core/session/SessionSignature.h"
 #include "core/session/SessionVerify.h"
 #include "core/study/StudyKeys.h"
 #include "tests/study/StudySupport.h"
@@ -119,6 +121,31 @@ TEST_F(SealedSession, IsVerifiedWithoutAKey) {
     EXPECT_EQ(report.head, head);
     EXPECT_TRUE(report.closed);
     EXPECT_EQ(report.trials, 1U);
+}
+
+TEST_F(SealedSession, IsSignedWithoutAKeyAndShowsNoPlaceThatCouldNameAPerson) {
+    RecordProperty("hazard", "H11");
+    const auto own = scratch.path() / "0123456789abcdef.pdf", elsewhere = scratch.path() / "P-7K3D second.pdf";
+    for (const auto& report : {own, elsewhere}) std::ofstream(report) << report;
+    const auto before = test::accepted(SessionReader::open(path, seal())).reproducibleText().value();
+    ASSERT_EQ(test::accepted(signReport(path, own, "A. Lind")).report, own.filename().string());
+    EXPECT_EQ(test::accepted(signReport(path, elsewhere, "B. Ott")).report, "");
+    auto verified = test::accepted(verifySession(path));
+    EXPECT_EQ(verified.status, SessionStatus::Intact) << testing::PrintToString(verified.problems);
+    EXPECT_EQ(verified.head, head);
+    ASSERT_EQ(verified.signatures.size(), 2U);
+    EXPECT_EQ(verified.signatures[0].state, SignedReport::Unchanged);
+    EXPECT_EQ(verified.signatures[1].state, SignedReport::Missing);
+    EXPECT_FALSE(reportChanged(verified));
+    std::ofstream(own, std::ios::app) << "more";
+    EXPECT_TRUE(reportChanged(test::accepted(verifySession(path))));
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(file), {});
+    EXPECT_EQ(bytes.find("P-7K3D"), std::string::npos);
+    const auto reader = test::accepted(SessionReader::open(path, seal()));
+    EXPECT_TRUE(reader.sealed());
+    EXPECT_EQ(reader.reproducibleText().value(), before);
+    EXPECT_EQ(saveLabels(path, {}, {"A. Weber", "", "", {}}).error().code, ErrorCode::Unsupported);
 }
 
 TEST_F(SealedSession, AFlippedBitIsFoundWithoutAKey) {

@@ -128,6 +128,7 @@ void PilotWorkspace::connectSession() {
     connect(session, &SessionConduct::ended, this, [this, session](const std::shared_ptr<const FinishedRun>& run) {
         const auto& outcome = run->result.outcome;
         reopened_ = false;
+        recorded_ = qtext(run->result.session.string());
         showPage(kOutcome);
         path_->end(outcome.error.has_value() || run->result.verdict() == "stopped" ? SessionEnd::BrokenOff
                    : memberAt(outcome.results, "range.usable") == false            ? SessionEnd::NoRange
@@ -158,7 +159,7 @@ void PilotWorkspace::connectResult() {
     connect(&reports_, &ReportMaker::failed, result_, &PilotResult::say);
     connect(&reports_, &ReportMaker::done, this, [this](const QString& out) {
         result_->say(tr("The report is %1.").arg(out));
-        ReportWindow::showReport(*this, out);
+        ReportWindow::showReport(*this, out, recorded_);
     });
 }
 
@@ -247,6 +248,7 @@ void PilotWorkspace::showRecorded(const RunResult& result, bool ofStudy) {
     if (running()) return;  // the page of the running session stays
     ofStudy_ = ofStudy;
     reopened_ = true;
+    recorded_ = qtext(result.session.string());
     result_->show(result, ofStudy ? study_.folder() : rehearsed_.folder(), ofStudy_);
     showPage(kOutcome);
 }

@@ -71,6 +71,7 @@ private:
     OpenStudy study_;
     OpenStudy rehearsed_;  ///< a rehearsal whose result is read
     QString wanted_;       ///< the session of that result
+    QString recorded_;     ///< the record of the result shown, in which a signature is noted
     ReportMaker reports_;  ///< of rehearsals; a study's page draws its own
     bool plotOnly_ = false;
     bool ofStudy_ = false;   ///< true if the running session, or the session of the result shown, belongs to a study

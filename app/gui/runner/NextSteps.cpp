@@ -89,18 +89,29 @@ void NextStepBar::show(const std::vector<NextStep>& steps) {
     buttons_.clear();
     for (const auto step : steps) {
         const auto words = wordsOf(step);
-        auto* button = new QPushButton(words.text, this);
-        const bool first = buttons_.empty();
-        button->setToolTip(words.tip);
-        button->setAutoDefault(false);
-        makePrimary(*button, first);
+        auto* button = add(words.text, words.tip, words.icon);
         if (step == NextStep::Session) makeQuiet(*button);
         connect(button, &QPushButton::clicked, this, [this, step] { emit chosen(step); });
-        button->show();
-        buttons_.push_back({button, icon(words.icon, first ? Ink::Primary : Ink::Text), 0, 0});
+        if (step != NextStep::Report) continue;
+        auto* more = add(tr("Save, print"), tr("Saves the report elsewhere, shows its folder, or prints it."), {});
+        more->setObjectName("reportMenu");
+        auto* menu = new QMenu(more);
+        connect(menu, &QMenu::aboutToShow, this, [this, menu] { emit reportMenuWanted(*menu); });
+        more->setMenu(menu);
     }
     measure();
     tabInPlace(*this);
+}
+
+QPushButton* NextStepBar::add(const QString& text, const QString& tip, const QString& icon) {
+    auto* button = new QPushButton(text, this);
+    const bool first = buttons_.empty();
+    button->setToolTip(tip);
+    button->setAutoDefault(false);
+    makePrimary(*button, first);
+    button->show();
+    buttons_.push_back({button, icon.isEmpty() ? QIcon() : gui::icon(icon, first ? Ink::Primary : Ink::Text), 0, 0});
+    return button;
 }
 
 /// Measures the buttons, as style and text size change their widths.

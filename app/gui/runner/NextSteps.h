@@ -3,6 +3,7 @@
 // Thread-safety: the GUI thread; nextStepsAfter() is pure.
 #pragma once
 
+#include <QMenu>
 #include <QPushButton>
 #include <QWidget>
 #include <functional>
@@ -27,8 +28,8 @@ enum class NextStep {
 /// Returns the steps, the recommended one first. Leaves out steps that need a session if the run left none.
 [[nodiscard]] std::vector<NextStep> nextStepsAfter(const FinishedRun& run);
 
-/// Buttons in a row, the first one filled. If the row is too narrow, the buttons lose their icons and move closer; if
-/// still too narrow, they wrap to several rows.
+/// Buttons in a row, the first one filled; beside the report, a menu to save, find and print it. If the row is too
+/// narrow, the buttons lose their icons and move closer; if still too narrow, they wrap to several rows.
 class NextStepBar final : public QWidget {
     Q_OBJECT
 public:
@@ -41,6 +42,8 @@ public:
 
 signals:
     void chosen(tacto::gui::NextStep step);
+    /// The menu beside the report is about to be shown, and is to be filled.
+    void reportMenuWanted(QMenu& menu);
 
 private:
     struct Button {
@@ -48,6 +51,7 @@ private:
         QIcon icon;
         int bare, whole;  ///< widths without and with the icon
     };
+    QPushButton* add(const QString& text, const QString& tip, const QString& icon);
     void measure();
     /// Returns the width with all buttons in one row.
     [[nodiscard]] int across(int Button::*width, int apart) const;

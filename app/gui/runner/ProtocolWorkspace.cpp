@@ -126,6 +126,7 @@ void ProtocolWorkspace::connectPages() {
             [this](int line, const QString& why) { edit(source_, line, why); });
     connect(&pages_->views(), &RunViews::plotOnlyWanted, this, &ProtocolWorkspace::plotOnlyWanted);
     connect(&pages_->views(), &RunViews::nextChosen, this, &ProtocolWorkspace::goOn);
+    connect(&pages_->views(), &RunViews::reportMenuWanted, &pages_->sign(), &SignPage::offerActs);
     connect(&pages_->sign(), &SignPage::stateChanged, this, [this] {
         steps_->setNote(kSign, pages_->sign().note());
         steps_->setState(kSign, pages_->sign().isSigned() ? StepList::State::Done : StepList::State::ToDo);

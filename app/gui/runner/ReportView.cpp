@@ -162,6 +162,17 @@ void ReportView::clear() {
     offer();
 }
 
+void ReportView::offerActs(QMenu& menu) const {
+    menu.clear();
+    if (report_.isEmpty()) return;
+    for (auto* button : acts_) {
+        if (button == print_)
+            printer_->offer(*menu.addMenu(tr("Print")), report_);
+        else
+            menu.addAction(button->text(), button, &QPushButton::click);
+    }
+}
+
 void ReportView::read() {
     document_->load(report_);
     if (document_->pageCount() == 0)

@@ -5,6 +5,7 @@
 #include <QDialog>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMenu>
 #include <QPdfDocument>
 #include <QPdfView>
 #include <QPushButton>
@@ -24,6 +25,8 @@ public:
     void show(const QString& pdf);
     void clear();
     [[nodiscard]] const QString& report() const { return report_; }
+    /// Fills a menu with the buttons that need a report; leaves it empty if there is none.
+    void offerActs(QMenu& menu) const;
     /// Returns the last row of buttons below the pages; further buttons are added at its end.
     [[nodiscard]] QHBoxLayout& row() { return *row_; }
 

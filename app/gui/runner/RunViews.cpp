@@ -126,6 +126,7 @@ QWidget* RunViews::buildBar() {
     bar_ = new QHBoxLayout(holder);
     next_ = new NextStepBar(holder);
     connect(next_, &NextStepBar::chosen, this, &RunViews::nextChosen);
+    connect(next_, &NextStepBar::reportMenuWanted, this, &RunViews::reportMenuWanted);
     bar_->addWidget(next_);
     bar_->addStretch();
     viewRow_ = new QWidget(holder);

@@ -58,6 +58,7 @@ public:
 signals:
     void scriptErrorChosen(int line, const QString& why);
     void nextChosen(tacto::gui::NextStep step);
+    void reportMenuWanted(QMenu& menu);  ///< NextStepBar::reportMenuWanted()
     void plotOnlyWanted();
 
 private:

@@ -8,6 +8,7 @@
 #include "app/gui/theme/Labels.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/theme/Told.h"
 #include "app/gui/theme/ToolRow.h"
 
 namespace tacto::gui {
@@ -40,6 +41,7 @@ SignPage::SignPage(QWidget* parent) : QWidget(parent), maker_(this) {
     connect(view_, &ReportView::unreadable, this, note);
     connect(view_, &ReportView::said, this, [this](const QString& what) {
         said_ = what;
+        tell(what);  // also where this page is not in front
         showState();
     });
     clear();
@@ -91,6 +93,11 @@ QWidget* SignPage::buildWords() {
 bool SignPage::isSigned() const { return !signing_->noted().isEmpty(); }
 
 const QString& SignPage::report() const { return view_->report(); }
+
+void SignPage::offerActs(QMenu& menu) const {
+    view_->offerActs(menu);
+    if (menu.isEmpty()) menu.addAction(note())->setEnabled(false);
+}
 
 void SignPage::fitWords(bool beside) {
     beside_ = beside;

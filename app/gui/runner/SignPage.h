@@ -6,6 +6,7 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMenu>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QWidget>
@@ -34,6 +35,8 @@ public:
     [[nodiscard]] bool drawing() const { return maker_.busy(); }
     /// Returns the written report; empty if there is none yet.
     [[nodiscard]] const QString& report() const;
+    /// Fills a menu with what can be done with the report, or with the reason why there is none.
+    void offerActs(QMenu& menu) const;
     /// Shows a report that has already been written.
     void showReport(const QString& pdf);
 

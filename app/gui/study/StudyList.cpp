@@ -4,6 +4,7 @@
 #include <QDateTime>
 #include <QFileInfo>
 #include <QMenu>
+#include <algorithm>
 #include <utility>
 
 #include "app/gui/runner/ReportView.h"
@@ -104,7 +105,7 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
             [this](const QString& place) { say(tr("The results lie in %1.").arg(place), false); });
     connect(&reports_, &ReportMaker::done, this, [this](const QString& out) {
         say(tr("The report is %1.").arg(out), false);
-        if (out.endsWith(".pdf", Qt::CaseInsensitive)) ReportWindow::showReport(*this, out);
+        if (out.endsWith(".pdf", Qt::CaseInsensitive)) ReportWindow::showReport(*this, out, signedIn());
     });
     connect(&reports_, &ReportMaker::failed, this, [this](const QString& why) { say(why); });
     refresh();
@@ -312,6 +313,16 @@ void StudyList::judge() {
     sessions_->setReadable(there);
 }
 
+/// Returns the record in which a signature of the report is noted: that of the last session that it tells of.
+QString StudyList::signedIn() const {
+    if (study_.study() == nullptr) return {};
+    const auto sessions = study_.study()->sessions();
+    const auto last = std::find_if(sessions.rbegin(), sessions.rend(), [this](const StudySession& each) {
+        return each.state != StudySessionState::Unfinished && (reported_.isEmpty() || qtext(each.code) == reported_);
+    });
+    return last == sessions.rend() ? QString() : qtext(study_.study()->pathOf(last->parts.back().file).string());
+}
+
 void StudyList::makeReport(const QString& title, const QString& name, const QStringList& more) {
     FileQuestion question{.title = title,
                           .wants = FileQuestion::Wants::NewFile,
@@ -322,6 +333,8 @@ void StudyList::makeReport(const QString& title, const QString& name, const QStr
     askForFile(*this, question, [this, more](const QString& out) {
         if (!noteReport(out, more)) return;
         say(tr("The report is being drawn…"), false);
+        const auto one = more.indexOf("--participant");
+        reported_ = one < 0 ? QString() : more[one + 1];
         reports_.make(ReportMaker::Order{.record = study_.folder(),
                                          .out = out,
                                          .more = more + QStringList{"--noted"},

@@ -46,6 +46,7 @@ private:
     void judge();
     void choose(const QString& code);
     void askForConsent(const QString& code);
+    [[nodiscard]] QString signedIn() const;
     void makeReport(const QString& title, const QString& name, const QStringList& more);
     void askForExport(const BidsWith& with);
     void changePassphrase();
@@ -53,7 +54,8 @@ private:
 
     OpenStudy& study_;
     ReportMaker reports_;
-    QString code_;  ///< the chosen participant's code
+    QString code_;      ///< the chosen participant's code
+    QString reported_;  ///< the participant whom the last report is about; empty for the whole study
     QLabel* title_;
     QLabel* facts_;
     QLabel* keys_;  ///< where the key file lies, and who should hold a copy

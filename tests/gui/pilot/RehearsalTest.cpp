@@ -1,6 +1,7 @@
 // Tests a rehearsal in the whole window, from "new rehearsal" to the result, with a virtual and a real participant.
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDir>
 #include <QLineEdit>
 #include <QPointer>
 #include <QTableWidget>
@@ -23,6 +24,7 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/window/RecordingLine.h"
 #include "core/pilot/PilotRecord.h"
+#include "core/session/SessionVerify.h"
 #include "core/study/Study.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/pilot/PluggedButtons.h"
@@ -131,7 +133,18 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     EXPECT_IN_TIME(comesTrue([&] { return (report = pilot->findChild<QDialog*>("reportWindow")) != nullptr; }, 60'000))
         << text("pilotNote").toStdString();
     EXPECT_TRUE(std::filesystem::exists(folder.path() / "study-report.pdf"));
-    if (report != nullptr) report->close();
+    ASSERT_NE(report, nullptr);
+    report->findChild<QLineEdit*>("signedBy")->setText("A. Lind");
+    click(*report->findChild<QPushButton*>("signReport"));
+    const auto files =
+        QDir(QString::fromStdString((folder.path() / "study/sessions").string())).entryInfoList({"*.tacto"});
+    ASSERT_EQ(files.size(), 1);
+    EXPECT_IN_TIME(comesTrue([&] {
+        const auto verified = verifySession(files.front().filePath().toStdString());
+        return verified && verified->signatures.size() == 1 && verified->signatures[0].signature.by == "A. Lind" &&
+               verified->status == SessionStatus::Intact;
+    }));
+    report->close();
     click(*pilot->findChild<QPushButton*>("backFromResult"));
     EXPECT_EQ(text("rehearsalTitle"), "Another session of this rehearsal");
     EXPECT_TRUE(pilot->findChild<gui::TabbedPage*>()->isVisible()) << "the way to the study";

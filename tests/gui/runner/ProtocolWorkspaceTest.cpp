@@ -177,6 +177,22 @@ TEST_F(Workspace, TheReportStandsBesideTheResult) {
     type("repeats", "2");
     click(the<QPushButton>("runButton"));
     ASSERT_IN_TIME(ends());
+    auto* menu = the<QPushButton>("reportMenu").menu();
+    QStringList offered;
+    const auto offers = [&](const QString& what) {
+        emit menu->aboutToShow();
+        offered.clear();
+        for (const auto* act : menu->actions()) offered << act->text();
+        return offered.contains(what);
+    };
+    ASSERT_IN_TIME(comesTrue([&] { return offers("Save as…"); }, 60'000)) << offered.join(", ").toStdString();
+    EXPECT_TRUE(offered.contains("Show in folder") && offered.contains("Print")) << offered.join(", ").toStdString();
+    menu->actions()[offered.indexOf("Save as…")]->trigger();
+    auto* asks = workspace->findChild<QFileDialog*>("fileChooser");
+    ASSERT_NE(asks, nullptr) << "without the report's window";
+    EXPECT_TRUE(asks->selectedFiles().front().endsWith(".pdf"));
+    asks->close();
+    delete asks;
     click(the<QPushButton>("Report"));  // also while it is still being drawn
     QDialog* shown = nullptr;
     ASSERT_IN_TIME(

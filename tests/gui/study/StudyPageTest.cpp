@@ -314,8 +314,7 @@ TEST_F(StudyPageTest, AfterASeriousEventTheStudyIsReleasedByNameInTheWindow) {
     ASSERT_TRUE(study.study()->adverseEvent({}, {.what = "fell", .serious = true}));
     study.noteChange();
     EXPECT_TRUE(release->isVisible());
-    EXPECT_THAT(page.findChild<QLabel*>("studyTrouble")->text().toStdString(),
-                HasSubstr("dverse event 1 was serious"));
+    EXPECT_THAT(page.findChild<QLabel*>("studyTrouble")->text().toStdString(), HasSubstr("dverse event 1 was serious"));
     choose("releaseStudy");
     auto* asks = dialog("releaseDialog");
     ASSERT_NE(asks, nullptr);
@@ -478,6 +477,7 @@ TEST_F(StudyOfThisUser, AReportThatNamesPeopleIsNotedWithItsPlaceAndShown) {
     EXPECT_EQ(exports[0].what, "study report");
     EXPECT_EQ(exports[0].place, out.toStdString());
     ASSERT_IN_TIME(comesTrue([this] { return dialog("reportWindow") != nullptr; }));
+    EXPECT_EQ(dialog("reportWindow")->findChild<QLineEdit*>("signedBy"), nullptr) << "no session keeps a signature yet";
     dialog("reportWindow")->close();
 }
 
