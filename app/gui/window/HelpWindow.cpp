@@ -23,6 +23,7 @@ namespace tacto::gui {
 
 namespace {
 
+constexpr const char* kReferencePage = "reference.md";
 constexpr int kGuideColumns = 130;  ///< width of the window in average characters
 
 /// Shows Markdown pages. Pictures are never wider than the page.
@@ -32,7 +33,7 @@ public:
 
 protected:
     QVariant loadResource(int type, const QUrl& name) override {
-        if (name.fileName() == "reference.md") return QString::fromStdString(scriptReference());
+        if (name.fileName() == kReferencePage) return QString::fromStdString(scriptReference());
         if (type != QTextDocument::ImageResource) return QTextBrowser::loadResource(type, name);
         const QImage picture(source().resolved(name).toLocalFile());
         const int width = fontMetrics().averageCharWidth() * (kGuideColumns - 20);
