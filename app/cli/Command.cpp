@@ -10,6 +10,7 @@
 
 #include "core/base/JsonText.h"
 #include "core/base/LocaleFreeText.h"
+#include "core/base/ProgramVersion.h"
 #include "core/base/TypedNumber.h"
 #include "core/base/WholeFile.h"
 
@@ -70,7 +71,7 @@ std::string howToCall(const Command& command, std::string_view program) {
 
 int runCommand(const Command& command, const QStringList& words) {
     QCoreApplication::setApplicationName("tactoscope");
-    QCoreApplication::setApplicationVersion(TACTOSCOPE_VERSION);
+    QCoreApplication::setApplicationVersion(programVersion().version);
 
     QCommandLineParser parser;
     parser.setSingleDashWordOptionMode(QCommandLineParser::ParseAsLongOptions);
@@ -89,19 +90,19 @@ int runCommand(const Command& command, const QStringList& words) {
         return kDone;
     }
     try {
-        int code = command.run(parser);
-        if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-            say(stderr, "tactoscope-cli: {}: the output could not be written: {}\n", command.name,
-                std::strerror(errno));
-            if (code == kDone) code = kCouldNotRun;
-        }
-        return code;
+        return flushed(command.name, command.run(parser));
     } catch (const std::exception& surprise) {
         // Thrown by a library: this program's own code does not throw. Devices were switched off when their bench was
         // destroyed.
         say(stderr, "tactoscope-cli: {}: unexpected error: {}\n", command.name, surprise.what());
         return kCouldNotRun;
     }
+}
+
+int flushed(const char* command, int code) {
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+    say(stderr, "tactoscope-cli: {}: the output could not be written: {}\n", command, std::strerror(errno));
+    return code == kDone ? kCouldNotRun : code;
 }
 
 Result<std::string> onlyArgument(const QCommandLineParser& parser, const char* what) {

@@ -50,6 +50,8 @@ void printFatalOnly();
 [[nodiscard]] std::string howToCall(const Command& command, std::string_view program);
 /// Parses `words`, which begin with the program's name, and runs the command. Needs a QCoreApplication.
 [[nodiscard]] int runCommand(const Command& command, const QStringList& words);
+/// Returns `code`. If stdout could not be written, says so, and returns 3 in place of 0.
+[[nodiscard]] int flushed(const char* command, int code);
 
 /// Returns the only positional argument. Errors: InvalidArgument naming a missing or surplus argument.
 [[nodiscard]] Result<std::string> onlyArgument(const QCommandLineParser& parser, const char* what);

@@ -5,6 +5,7 @@
 #include "app/cli/ProgressBar.h"
 #include "app/cli/StudyPassphrase.h"
 #include "app/run/SignalStop.h"
+#include "core/base/ProgramVersion.h"
 #include "core/exchange/Export.h"
 #include "core/sharing/results/StudyResults.h"
 
@@ -77,7 +78,8 @@ int runExport(const QCommandLineParser& parser) {
     const std::filesystem::path out = parser.value("out").toStdString();
     auto study = openStudy(parser, *folder, Study::Access::Change);
     if (!study) return couldNotRun(study.error());
-    if (const auto done = exportBids(*study, with, out, TACTOSCOPE_VERSION); !done) return couldNotRun(done.error());
+    if (const auto done = exportBids(*study, with, out, programVersion().version); !done)
+        return couldNotRun(done.error());
     if (const auto about = sharedAbout(*study, with); !about.withheld.empty()) say(stderr, "{}.\n", about.withheld);
     say("{}\n", out.string());
     return kDone;

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "app/cli/ReportProgram.h"
 #include "app/scripting/engine/ScriptRun.h"
 #include "core/base/ProgramStart.h"
+#include "core/base/ProgramVersion.h"
 
 namespace tacto::cli {
 
@@ -17,6 +19,7 @@ namespace {
 
 constexpr const char* kNotice =
     "Tactoscope is a research bench, not a medical device. Simulated devices are marked as simulated.";
+constexpr const char* kLicence = "GPL-3.0-or-later";
 
 /// Returns the commands in the order of the help.
 const std::vector<Command>& commands() {
@@ -30,7 +33,7 @@ const std::vector<Command>& commands() {
 
 void printHelp(std::FILE* to) {
     say(to, "tactoscope-cli {} - tactile-feedback stimulation, from fingertip to judged pulse train\n\n",
-        TACTOSCOPE_VERSION);
+        programVersion().version);
     for (const auto& command : commands()) {
         say(to, "{}        {}\n", lines(howToCall(command, "  tactoscope-cli")), command.summary);
     }
@@ -39,6 +42,33 @@ void printHelp(std::FILE* to) {
         "4 stopped by safety or by the operator, 5 indeterminate. --json prints one JSON value on stdout.\n"
         "{}\n",
         kNotice);
+}
+
+int printVersion(std::span<char*> words) {
+    const bool asJson = words.size() == 1 && std::strcmp(words.front(), "--json") == 0;
+    if (!asJson && !words.empty())
+        return usage(fmt::format("--version: \"{}\" is given; --json or nothing is expected", words.back()));
+    const auto& built = programVersion();
+    const bool known = *built.date != '\0';
+    if (asJson) {
+        auto libraries = nlohmann::json::object();
+        for (const auto& library : built.libraries) libraries[library.name] = library.version;
+        printJson({{"version", built.version},
+                   {"commit", built.commit},
+                   {"dirty", known ? nlohmann::json(built.dirty) : nlohmann::json()},
+                   {"date", known ? nlohmann::json(built.date) : nlohmann::json()},
+                   {"compiler", built.compiler},
+                   {"libraries", std::move(libraries)},
+                   {"licence", kLicence}});
+    } else {
+        std::string libraries;
+        for (const auto& library : built.libraries)
+            libraries += fmt::format("{}{} {}", libraries.empty() ? "" : ", ", library.name, library.version);
+        say("tactoscope-cli {}\ncommit {}{}{}{}\ncompiler {}\nlibraries {}\nlicence {}\n", built.version, built.commit,
+            known ? " of " : "", built.date, built.dirty ? ", with changes that are in no commit" : "", built.compiler,
+            libraries, kLicence);
+    }
+    return flushed("--version", kDone);
 }
 
 int runNamed(const Command& command, int argc, char** argv) {
@@ -64,12 +94,9 @@ int main(int argc, char** argv) {
     }
     if (std::strcmp(name, "help") == 0 || std::strcmp(name, "--help") == 0 || std::strcmp(name, "-h") == 0) {
         printHelp(stdout);
-        return kDone;
+        return flushed("help", kDone);
     }
-    if (std::strcmp(name, "--version") == 0) {
-        say("tactoscope-cli {}\n", TACTOSCOPE_VERSION);
-        return kDone;
-    }
+    if (std::strcmp(name, "--version") == 0) return printVersion({argv + 2, argv + argc});
     std::string known;
     for (const auto& command : commands()) {
         if (std::strcmp(name, command.name) == 0) return runNamed(command, argc, argv);

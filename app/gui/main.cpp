@@ -14,6 +14,7 @@
 #include "app/run/AllDrivers.h"
 #include "app/run/SignalStop.h"
 #include "core/base/ProgramStart.h"
+#include "core/base/ProgramVersion.h"
 
 namespace {
 
@@ -41,7 +42,7 @@ int main(int argc, char** argv) {
     QApplication::setApplicationName("tactoscope");
     QApplication::setOrganizationName("tactoscope");
     QApplication::setApplicationDisplayName("Tactoscope");
-    QApplication::setApplicationVersion(TACTOSCOPE_VERSION);
+    QApplication::setApplicationVersion(tacto::programVersion().version);
     QApplication::setDesktopFileName("io.github.tactoscope.Tactoscope");
     const auto started = StartedWith::read(QApplication::arguments());
     if (started.answer) return answer(*started.answer);

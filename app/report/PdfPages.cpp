@@ -4,6 +4,7 @@
 
 #include "app/report/Fonts.h"
 #include "app/report/PlotSheet.h"
+#include "core/base/ProgramVersion.h"
 
 namespace tacto {
 namespace {
@@ -49,7 +50,7 @@ PdfPages::PdfPages(QIODevice* device, const QString& title, QString header, QStr
     writer_->setPageSize(QPageSize(QPageSize::A4));
     writer_->setPageMargins(QMarginsF(0, 0, 0, 0));
     writer_->setTitle(title);
-    writer_->setCreator("Tactoscope " TACTOSCOPE_VERSION);
+    writer_->setCreator(QString("Tactoscope %1").arg(programVersion().version));
     painter_ = std::make_unique<QCPPainter>();
     painter_->begin(writer_.get());
     painter_->scale(kResolution / 96.0, kResolution / 96.0);

@@ -13,6 +13,7 @@
 #include "core/analysis/identification/FewPeople.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/analysis/identification/IdentificationText.h"
+#include "core/base/ProgramVersion.h"
 #include "core/kinds/ResultKinds.h"
 #include "core/sharing/results/StudyFigures.h"
 
@@ -54,10 +55,11 @@ ReportContent begun(const StudyRecord& study, std::vector<SessionBasis> parts, c
     const auto simulated = std::ranges::count_if(counts, [](const auto& each) { return isSimulatedBasis(each.first); });
     content.simulated = simulated == std::ssize(counts);
     content.documentTitle = title;
-    content.header = QString("Tactoscope " TACTOSCOPE_VERSION "  ·  %1%2")
-                         .arg(title, content.simulated ? "  ·  simulated"
-                                     : simulated > 0   ? "  ·  simulated in part"
-                                                       : "");
+    content.header = QString("Tactoscope %1  ·  %2%3")
+                         .arg(programVersion().version, title,
+                              content.simulated ? "  ·  simulated"
+                              : simulated > 0   ? "  ·  simulated in part"
+                                                : "");
     content.footer =
         QString("Study %1  ·  ledger head %2…").arg(qtext(study.settings.id), qtext(study.ledgerHead).left(12));
     content.blocks.emplace_back(TitleBlock{title, subtitle});

@@ -6,6 +6,7 @@
 #include "app/run/OpenDevices.h"
 #include "app/run/ScopeStatement.h"
 #include "core/base/JsonText.h"
+#include "core/base/ProgramVersion.h"
 #include "core/bench/arming/CommandPreview.h"
 #include "core/devices/Device.h"
 #include "core/safety/UnitRecord.h"
@@ -54,7 +55,7 @@ Result<void> warnOfProfile(const Profile& profile, const DeviceSet& devices, Ope
 
 SessionAbout aboutSession(const DeviceSet& devices, const BenchOrder& order) {
     SessionAbout about = order.about;
-    about.programVersion = TACTOSCOPE_VERSION;
+    about.programVersion = programVersion().version;
     about.seed = order.seed;
     for (const auto& device : devices.identities()) {
         about.devices.push_back({device.uri, std::string(nameOf(device.role)), device.name, device.serial,

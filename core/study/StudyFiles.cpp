@@ -9,6 +9,7 @@
 #include "core/base/Csv.h"
 #include "core/base/JsonText.h"
 #include "core/base/LocaleFreeText.h"
+#include "core/base/ProgramVersion.h"
 #include "core/base/WholeFile.h"
 #include "core/session/Digest.h"
 #include "core/session/Ledger.h"
@@ -171,7 +172,7 @@ Result<void> layOut(const StudyFiles& files, const StudySettings& settings, std:
     if (!fs::create_directory(files.sessions(), error))
         return fail(ErrorCode::Io, "{} cannot be made: {}", files.sessions().string(), error.message());
     SessionAbout about;
-    about.programVersion = TACTOSCOPE_VERSION;
+    about.programVersion = programVersion().version;
     about.protocol = "study ledger";
     about.wallStart =
         fmt::format("{}T00:00:00Z", dateText(std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(now))));

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/base/ProgramVersion.h"
 #include "drivers/simulated/DeviceSettings.h"
 
 namespace tacto {
@@ -44,7 +45,7 @@ const std::array<Kind, 4>& kinds() {
 }
 
 DeviceIdentity identityOf(const Kind& kind, const DeviceUri& uri, std::uint64_t seed) {
-    return {uri.text(), kind.role, std::string(kind.name), fmt::format("SIM-{}", seed), TACTOSCOPE_VERSION, true};
+    return {uri.text(), kind.role, std::string(kind.name), fmt::format("SIM-{}", seed), programVersion().version, true};
 }
 
 /// Returns the world of a simulated device that is already in the set, or null.

@@ -6,6 +6,7 @@
 #include "app/run/Shipped.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/base/JsonText.h"
+#include "core/base/ProgramVersion.h"
 #include "core/base/Words.h"
 #include "core/pilot/PilotRecord.h"
 #include "core/session/SessionReader.h"
@@ -168,7 +169,7 @@ void OpenStudy::changePassphrase(std::shared_ptr<const Secret> next) {
 void OpenStudy::exportBids(const QString& place, const BidsWith& with) {
     if (study() == nullptr) return;
     work_.start([this, with, out = place.toStdString()](
-                    const WorkPort&) { return tacto::exportBids(*study_, with, out, TACTOSCOPE_VERSION); },
+                    const WorkPort&) { return tacto::exportBids(*study_, with, out, programVersion().version); },
                 [this, place](const Result<void>& done) {
                     emit changed();
                     if (done)

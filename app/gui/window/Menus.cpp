@@ -17,6 +17,7 @@
 #include "app/gui/window/StateWords.h"
 #include "app/gui/window/StopButton.h"
 #include "app/gui/window/Workspaces.h"
+#include "core/base/ProgramVersion.h"
 
 namespace tacto::gui {
 
@@ -158,7 +159,7 @@ void Menus::showAbout() {
            "device.</b> A research bench, not certified. Its drivers for hardware "
            "have been tried on emulated devices only.</p>"
            "<p>GPL-3.0-or-later</p>")
-            .arg(TACTOSCOPE_VERSION),
+            .arg(programVersion().version),
         QMessageBox::Close, &window_));
 }
 

@@ -3,6 +3,8 @@
 #include <QCommandLineParser>
 #include <QFileInfo>
 
+#include "core/base/ProgramVersion.h"
+
 namespace tacto::gui {
 namespace {
 
@@ -29,7 +31,7 @@ StartedWith StartedWith::read(const QStringList& arguments) {
     const auto version = parser.addVersionOption();
     const bool understood = parser.parse(arguments);
     if (parser.isSet(help)) return {{}, Answer{kHelp}};
-    if (parser.isSet(version)) return {{}, Answer{"tactoscope " TACTOSCOPE_VERSION}};
+    if (parser.isSet(version)) return {{}, Answer{QString("tactoscope %1").arg(programVersion().version)}};
     if (!understood)
         return refused(QString("%1; --help, --version or a FILE is expected").arg(parser.errorText().chopped(1)), 2);
     const auto files = parser.positionalArguments();

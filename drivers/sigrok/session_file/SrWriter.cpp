@@ -6,6 +6,7 @@
 #include <limits>
 #include <system_error>
 
+#include "core/base/ProgramVersion.h"
 #include "core/base/WholeFile.h"
 #include "drivers/sigrok/driver/ConfigValues.h"
 
@@ -37,7 +38,7 @@ std::vector<unsigned char> packed(const std::vector<const CaptureChannel*>& chan
 
 void writeSession(const SigrokLibrary& library, const std::string& file, const Capture& capture) {
     const auto& context = library.context();
-    const auto device = context->create_user_device("Tactoscope", "capture", TACTOSCOPE_VERSION);
+    const auto device = context->create_user_device("Tactoscope", "capture", programVersion().version);
     std::vector<const CaptureChannel*> logic, analog;
     for (const auto& channel : capture.channels) (isLogic(channel) ? logic : analog).push_back(&channel);
     unsigned index = 0;

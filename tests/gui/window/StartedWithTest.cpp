@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "app/gui/window/StartedWith.h"
+#include "core/base/ProgramVersion.h"
 
 namespace tacto::test {
 namespace {
@@ -39,7 +40,8 @@ TEST(StartedWithTest, AFileThatDoesNotExistIsNamed) {
 
 TEST(StartedWithTest, SaysItsHelpAndVersion) {
     for (const auto* word : {"--help", "-h"}) expectAnswer({word, "/nowhere"}, 0, "usage: tactoscope [FILE]");
-    for (const auto* word : {"--version", "-v"}) expectAnswer({word}, 0, "tactoscope " TACTOSCOPE_VERSION);
+    for (const auto* word : {"--version", "-v"})
+        expectAnswer({word}, 0, QString("tactoscope %1").arg(programVersion().version));
     // An option of Qt that contains an h.
     expectAnswer({"-stylesheet", "x.qss"}, 2, "tactoscope: Unknown option 'stylesheet'");
 }
