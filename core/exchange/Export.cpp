@@ -30,14 +30,8 @@ bool has(const ExportSource& source, ExportContent content) {
             return !source.captures().empty();
         case ExportContent::Trials:
             return !source.trialRows().empty();
-        case ExportContent::Trains: {
-            bool any = false;
-            (void)source.forEachTrain([&](const ExportTrain&) -> Result<void> {
-                any = true;
-                return fail(ErrorCode::Stopped, "one is enough");
-            });
-            return any;
-        }
+        case ExportContent::Trains:
+            return source.trainCount() > 0;
         case ExportContent::Events:
             return !source.eventRows().empty();
         case ExportContent::Records:

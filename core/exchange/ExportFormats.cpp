@@ -3,12 +3,14 @@
 
 #include "core/exchange/Export.h"
 #include "core/exchange/csv/CsvExport.h"
+#include "core/exchange/hdf5/Hdf5Export.h"
 
 namespace tacto {
 
 std::span<const ExportFormat* const> exportFormats() {
-    static const std::array<const ExportFormat*, 1> formats{
+    static const std::array<const ExportFormat*, 2> formats{
         &csvExport(),
+        &hdf5Export(),
     };
     return formats;
 }

@@ -143,6 +143,8 @@ struct ExportSource::State {
     std::vector<SessionTrial> trials;
     std::vector<SessionRow> events;
     ExportTable trialTable;
+    std::vector<std::pair<double, double>> told;  ///< when each train began, and the amplitude that was sent
+    std::uint64_t trains = 0;
     json description;
 
     // Progress: the part of the work that is being done, and what is done of it.
@@ -391,7 +393,16 @@ Result<ExportSource> ExportSource::open(const std::filesystem::path& session, st
     std::uint64_t samples = 0;
     for (const auto& stream : state->streams) samples += stream.samples;
     state->part(0.3, 0.95, samples + state->captures.size());
-    return ExportSource(std::move(state));
+    ExportSource source(std::move(state));
+    auto counted = source.forEachTrain([&](const ExportTrain& train) -> Result<void> {
+        ++source.state_->trains;
+        if (const double told = std::isnan(train.told_ma) ? train.told_v : train.told_ma; !std::isnan(told))
+            source.state_->told.emplace_back(train.time_s, told);
+        return {};
+    });
+    if (!counted) return failure(counted);
+    std::ranges::sort(source.state_->told);
+    return source;
 }
 
 const std::string& ExportSource::name() const noexcept { return state_->name; }
@@ -416,6 +427,16 @@ const ExportTable& ExportSource::records() const noexcept { return recordTable()
 std::vector<const ExportTable*> ExportSource::tables() const { return {&trials(), &trains(), &events(), &records()}; }
 const std::vector<SessionTrial>& ExportSource::trialRows() const noexcept { return state_->trials; }
 const std::vector<SessionRow>& ExportSource::eventRows() const noexcept { return state_->events; }
+std::uint64_t ExportSource::trainCount() const noexcept { return state_->trains; }
+double ExportSource::toldIn(const Capture& capture) const noexcept {
+    constexpr double kLatency_s = 0.02;  // from the command to the pulse
+    const double end_s = capture.start_s + static_cast<double>(capture.samples()) / capture.rate_hz;
+    const auto behind = std::ranges::upper_bound(
+        state_->told, std::isnan(capture.trigger_s) ? end_s : capture.trigger_s, {}, &std::pair<double, double>::first);
+    if (behind == state_->told.begin()) return kNaN;
+    const auto& [begun_s, told] = *std::prev(behind);
+    return begun_s >= capture.start_s - kLatency_s ? told : kNaN;
+}
 Result<void> ExportSource::goOn() const { return state_->goOn(); }
 
 bool ExportSource::calibratedR(double t_s) const noexcept {
@@ -434,10 +455,19 @@ bool ExportSource::calibratedR() const noexcept {
 Result<void> ExportSource::forEachChunk(const ExportStream& stream,
                                         const std::function<Result<void>(const SampleBlock&)>& visit) const {
     Result<void> visited;
+    std::uint64_t left = stream.samples;  // a session that is still being recorded grows meanwhile
+    SampleBlock cut;
     auto read = state_->reader.forEachChunk(stream.id, [&](const SampleBlock& block) {
-        visited = visit(block);
-        if (visited) visited = state_->goOn(block.samples());
-        return visited.has_value();
+        const auto samples = std::min<std::uint64_t>(left, block.samples());
+        if (samples < block.samples()) {
+            cut.t_s.assign(block.t_s.begin(), block.t_s.begin() + static_cast<std::ptrdiff_t>(samples));
+            cut.values.assign(block.values.begin(),
+                              block.values.begin() + static_cast<std::ptrdiff_t>(samples * stream.channels.size()));
+        }
+        visited = visit(samples < block.samples() ? cut : block);
+        if (visited) visited = state_->goOn(samples);
+        left -= samples;
+        return visited.has_value() && left > 0;
     });
     return read ? visited : read;
 }

@@ -168,6 +168,9 @@ public:
     [[nodiscard]] Result<void> forEachRow(const ExportTable& table,
                                           const std::function<Result<void>(std::span<const ExportCell>)>& visit) const;
     [[nodiscard]] Result<void> forEachTrain(const std::function<Result<void>(const ExportTrain&)>& visit) const;
+    /// The amplitude in V or mA that the device was sent for the train that the capture shows; NaN if it shows none.
+    [[nodiscard]] double toldIn(const Capture& capture) const noexcept;
+    [[nodiscard]] std::uint64_t trainCount() const noexcept;
     [[nodiscard]] const std::vector<SessionTrial>& trialRows() const noexcept;
     [[nodiscard]] const std::vector<SessionRow>& eventRows() const noexcept;
     /// Events and records together, in the order of writing.

@@ -81,11 +81,13 @@ std::string trialColumn(const std::string& member) {
     return std::ranges::find(kOfEveryTrial, member) == kOfEveryTrial.end() ? member : "measured_" + member;
 }
 
-/// The columns of every table of a kind.
-std::map<std::string, ResultColumn> describedColumns(std::string_view kind) {
-    std::map<std::string, ResultColumn> all;
+/// The units that the tables of a kind state of their columns.
+std::map<std::string, std::string> describedUnits(std::string_view kind) {
+    std::map<std::string, std::string> all;
     for (const auto& table : resultTraits(kind).tables) {
-        for (const auto& column : table.columns) all.emplace(column.at, column);
+        for (const auto& column : table.columns) {
+            if (!column.unit.empty() && column.unit.front() != '@') all.emplace(column.at, column.unit);
+        }
     }
     return all;
 }
@@ -103,13 +105,10 @@ ExportTable trialTable(const std::vector<SessionTrial>& trials, std::string_view
         "trials",
         "Trials",
         {number(kTimeTitle, "time_s", "s"), number("Trial, from 1", "trial"), text("Condition", "condition")}};
-    const auto described = describedColumns(kind);
+    const auto described = describedUnits(kind);
     for (const auto& [name, isText] : members) {
         ResultColumn column{name, trialColumn(name), isText ? As::Text : As::Number, unitInName(name)};
-        if (const auto known = described.find(name); known != described.end()) {
-            column.title = known->second.title;
-            if (const auto& unit = known->second.unit; !unit.empty() && unit.front() != '@') column.unit = unit;
-        }
+        if (const auto known = described.find(name); known != described.end()) column.unit = known->second;
         table.columns.push_back(std::move(column));
     }
     table.columns.push_back(simulatedColumn());

@@ -15,8 +15,8 @@
 
 namespace tacto {
 
-/// The columns of trials.csv: of every number and text measured, in the order of their names. Title and unit are those
-/// of the tables of `kind` (core/kinds) where these have the column, else the unit is read from the name's end.
+/// The columns of trials.csv: of every number and text measured, in the order of their names. Units are those that
+/// the tables of `kind` (core/kinds) state, else they are read from the name's end.
 [[nodiscard]] ExportTable trialTable(const std::vector<SessionTrial>& trials, std::string_view kind);
 void trialCells(const SessionTrial& trial, bool simulated, const ExportTable& table, std::vector<ExportCell>& cells);
 
