@@ -7,9 +7,11 @@
 #include <zlib.h>
 
 #include "core/base/JsonText.h"
+#include "core/base/Printable.h"
 #include "core/base/RecordFields.h"
 #include "core/base/Statistics.h"
 #include "core/measure/CaptureDescription.h"
+#include "core/packing/PackedColumns.h"
 
 namespace tacto {
 
@@ -44,6 +46,7 @@ RecordFields<ChunkHead> buildChunkFields() {
     all.number("crc32", &C::crc).required = true;
     all.add("t0_s", std::identity{}, lineKind(&StampLine::t0_s)).leftOutIfEmpty = true;
     all.add("step_s", std::identity{}, lineKind(&StampLine::step_s)).leftOutIfEmpty = true;
+    all.text("packing", &C::packing).leftOutIfEmpty = true;
     all.passOverUnknownKeys();
     all.rule([](const C& head) -> Result<void> {
         if (!head.line || !(std::isnan(head.line->t0_s) || std::isnan(head.line->step_s))) return {};
@@ -72,9 +75,34 @@ Result<ChunkHead> parseChunkHead(std::string_view text) {
     return parseRecord(chunkFields(), text, "the description of a chunk");
 }
 
+std::array<std::span<const std::byte>, 2> recordedBytes(const SampleBlock& block, bool withStamps) noexcept {
+    const auto stamps = std::span(block.t_s).first(withStamps ? block.samples() : 0);
+    return {std::as_bytes(stamps), std::as_bytes(std::span(block.values))};
+}
+
+namespace {
+void putLine(const ChunkHead& head, SampleBlock& into) {
+    for (std::size_t i = 0; head.line && i < into.t_s.size(); ++i)
+        into.t_s[i] = head.line->t0_s + static_cast<double>(i) * head.line->step_s;
+}
+}  // namespace
+
 Result<void> unpackChunk(const ChunkHead& head, std::size_t columns, std::span<const std::byte> stamps,
                          std::span<const std::byte> data, SampleBlock& into) {
     into.clear();
+    if (head.packing) {
+        const auto because = [&](std::string_view why) {
+            return fmt::format("chunk {} of stream {} cannot be unpacked: {}", head.index, head.stream, why);
+        };
+        if (*head.packing != kPackedAsSteps)
+            return fail(ErrorCode::Unsupported, "{}",
+                        because(fmt::format("it is packed as '{}', and this program knows '{}'",
+                                            printable(*head.packing), kPackedAsSteps)));
+        auto unpacked = unpackColumns(data, head.samples, columns, !head.line, into);
+        if (!unpacked) return fail(ErrorCode::ParseError, "{}", because(unpacked.error().message));
+        putLine(head, into);
+        return {};
+    }
     const std::size_t samples = data.size() / sizeof(double) / columns;
     if (samples != head.samples || data.size() != samples * columns * sizeof(double) ||
         (head.line ? 0 : samples * sizeof(double)) != stamps.size()) {
@@ -85,12 +113,8 @@ Result<void> unpackChunk(const ChunkHead& head, std::size_t columns, std::span<c
     into.t_s.resize(samples);
     if (samples == 0) return {};
     std::memcpy(into.values.data(), data.data(), data.size());
-    if (head.line) {
-        for (std::size_t i = 0; i < samples; ++i)
-            into.t_s[i] = head.line->t0_s + static_cast<double>(i) * head.line->step_s;
-    } else {
-        std::memcpy(into.t_s.data(), stamps.data(), stamps.size());
-    }
+    if (!head.line) std::memcpy(into.t_s.data(), stamps.data(), stamps.size());
+    putLine(head, into);
     return {};
 }
 

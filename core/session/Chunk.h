@@ -1,9 +1,10 @@
-// Chunk.h - consecutive samples of a stream as the file stores them: little-endian doubles, with either a straight line
-// of time stamps or every single stamp.
+// Chunk.h - consecutive samples of a stream as the file stores them: with either a straight line of time stamps or
+// every single stamp; packed (core/packing/PackedColumns.h) or, where that saves nothing, as little-endian doubles.
 //
 // Thread-safety: pure functions.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
@@ -37,15 +38,21 @@ struct ChunkHead {
     std::int64_t index = 0;         ///< number of the chunk within the stream, from 0
     std::uint64_t firstSample = 0;  ///< position of the chunk's first sample in the stream
     std::uint64_t samples = 0;
-    std::optional<StampLine> line;  ///< if not set, the stamps are stored one by one
-    std::uint32_t crc = 0;          ///< checksum of the stamps (if stored) and the values
+    std::optional<StampLine> line;            ///< if not set, the stamps are stored one by one
+    std::uint32_t crc = 0;                    ///< checksum of the stamps (if stored) and the values, before packing
+    std::optional<std::string> packing = {};  ///< kPackedAsSteps, of stamps and values together; not set: doubles
 };
 
 [[nodiscard]] std::string toJsonText(const ChunkHead& head);
 /// Errors: ParseError.
 [[nodiscard]] Result<ChunkHead> parseChunkHead(std::string_view json);
 
-/// Reads the samples of a chunk. Errors: ParseError if the sizes do not fit the head.
+/// Returns the stamps, if `withStamps`, and the values: what the head's checksum covers.
+[[nodiscard]] std::array<std::span<const std::byte>, 2> recordedBytes(const SampleBlock& block,
+                                                                      bool withStamps) noexcept;
+
+/// Reads the samples of a chunk. Errors: ParseError if the sizes do not fit the head; Unsupported for a packing that
+/// this program does not know.
 [[nodiscard]] Result<void> unpackChunk(const ChunkHead& head, std::size_t columns, std::span<const std::byte> stamps,
                                        std::span<const std::byte> data, SampleBlock& into);
 

@@ -1,6 +1,4 @@
-// CommitThread.h - a thread that commits to disk while the caller hashes the next chunk on another core.
-//
-// Hashing and committing in turn would cost a third of the recording rate (tests/perf/SessionPerf.cpp).
+// CommitThread.h - a thread that packs chunks and commits them to disk while the caller gathers the next ones.
 //
 // Thread-safety: one caller. From start() until the job ends, the caller must not touch what the job uses.
 #pragma once

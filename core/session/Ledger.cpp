@@ -32,7 +32,7 @@ Ledger::~Ledger() {
 
 Result<Ledger> Ledger::create(const std::filesystem::path& path, const SessionAbout& about,
                               std::chrono::sys_seconds now) {
-    auto store = SessionStore::create(path, ledgerTime(now), dumpJson(toJson(about)));
+    auto store = SessionStore::create(path, ledgerTime(now), dumpJson(toJson(about)), kSchemaVersion);
     if (!store) return failure(store);
     return Ledger(std::make_unique<State>(path, std::move(*store)));
 }

@@ -50,13 +50,13 @@ CREATE VIEW log AS SELECT seq, t_ns / 1e9 AS t_s, name AS level, json_extract(bo
 
 }  // namespace
 
-Result<void> createSchema(Database& database) {
+Result<void> createSchema(Database& database, int version) {
     // The page size must be set before the first write. Compared with 4 kB, pages of 16 kB would halve the cost of
     // large blobs, but make a commit of one small row 0.05 ms slower.
     return database.execute(
         fmt::format("PRAGMA page_size=4096; PRAGMA journal_mode=WAL;"
                     "BEGIN; PRAGMA application_id={}; PRAGMA user_version={}; {} COMMIT;",
-                    kApplicationId, kSchemaVersion, kTables));
+                    kApplicationId, version, kTables));
 }
 
 }  // namespace tacto

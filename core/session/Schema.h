@@ -4,6 +4,14 @@
 // have their data in tables of their own, under their entry's seq. The views (events, trials, ...) help people with
 // other SQLite programs. Triggers refuse changes and deletions, so that nobody alters a session by accident.
 //
+// Chunks are packed where that saves space (core/packing/PackedColumns.h); their `stamps` are then NULL. What is
+// checked:
+//   a chunk's "crc32"    its stamps (unless they are a line) and its values as recorded, as doubles, before packing
+//   a capture's "crc32"  its data as stored
+//   `digest`             the bytes as stored, `stamps` before `data`; so any changed byte of a packed chunk is noticed
+//   `hash`               the row with its digest, and the rows before it
+// Chunks of sealed sessions are sealed as they are: the size of a packed chunk would tell what was felt.
+//
 // Thread-safety: pure functions; createSchema() as Database.
 #pragma once
 
@@ -21,7 +29,9 @@ inline constexpr int kSchemaVersion = 1;
 inline constexpr int kAnnotatedVersion = 2;
 /// The same tables with sealed rows (SealedRow.h).
 inline constexpr int kSealedVersion = 3;
-inline constexpr int kNewestVersion = kSealedVersion;
+/// The same tables with packed chunks, and annotations behind the end mark.
+inline constexpr int kPackedVersion = 4;
+inline constexpr int kNewestVersion = kPackedVersion;
 
 /// The kinds of `entries` rows.
 namespace kind {
@@ -40,7 +50,7 @@ inline constexpr const char* kEnd = "end";
 inline constexpr const char* kAnnotation = "annotation";  ///< the only kind of row after the end mark (SessionLabels.h)
 }  // namespace kind
 
-/// Creates the tables, views and triggers of kSchemaVersion, and sets application id and version.
-[[nodiscard]] Result<void> createSchema(Database& database);
+/// Creates the tables, views and triggers, and sets application id and version.
+[[nodiscard]] Result<void> createSchema(Database& database, int version);
 
 }  // namespace tacto

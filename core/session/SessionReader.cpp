@@ -358,16 +358,38 @@ Result<std::string> SessionReader::reproducibleText() const {
     if (auto open = state_->unlocked("the rows"); !open) return failure(open);
     std::string text = dumpJson(reproducible(state_->about)) + "\n";
     auto rows = state_->source.database().prepare(
-        "SELECT seq, kind, t_ns, name, body, digest FROM entries "
-        "WHERE kind NOT IN ('about', 'annotation') ORDER BY seq");
+        "SELECT e.seq, e.kind, e.t_ns, e.name, e.body, e.digest, c.stream, c.stamps, c.data FROM entries e "
+        "LEFT JOIN chunks c ON c.seq=e.seq WHERE kind NOT IN ('about', 'annotation') ORDER BY e.seq");
     if (!rows) return failure(rows);
+    std::vector<SessionStreamInfo> streams;
+    if (!state_->source.sealed()) {
+        auto declared = state_->declared();
+        if (!declared) return failure(declared);
+        streams = std::move(*declared);
+    }
+    SampleBlock block;
     for (;;) {
         auto more = rows->step();
         if (!more) return failure(more);
         if (!*more) return text;
         if (!state_->source.sealed()) {
+            auto body = std::string(rows->text(4));
+            auto digest = hexOf(rows->blob(5));
+            if (rows->text(1) == kind::kChunk) {  // as if it were not packed: another zstd packs in another way
+                auto head = parseChunkHead(body);
+                if (!head) return failure(head);
+                const auto stream = static_cast<std::size_t>(rows->integer(6)) - 1;
+                if (stream >= streams.size())
+                    return fail(ErrorCode::ParseError, "row {} has no samples of a stream", rows->integer(0));
+                auto done =
+                    unpackChunk(*head, streams[stream].stream.columns.size(), rows->blob(7), rows->blob(8), block);
+                if (!done) return failure(done);
+                head->packing.reset();
+                body = toJsonText(*head);
+                digest = hexText(bulkDigest(recordedBytes(block, !head->line)));
+            }
             text += fmt::format("{} {} {} {} {} {}\n", rows->integer(0), rows->text(1), rows->integer(2), rows->text(3),
-                                rows->text(4), hexOf(rows->blob(5)));
+                                body, digest);
             continue;
         }
         const auto row =

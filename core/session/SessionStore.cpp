@@ -55,7 +55,7 @@ Result<SessionStore> SessionStore::attach(Database database) {
 }
 
 Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Instant at, std::string_view about,
-                                          std::shared_ptr<const RowSeal> seal) {
+                                          int version, std::shared_ptr<const RowSeal> seal) {
     const auto because = [&](const auto& failed) {
         return fail(failed.error().code, "session {} cannot be made: {}", path.string(), failed.error().message);
     };
@@ -74,11 +74,7 @@ Result<SessionStore> SessionStore::create(const std::filesystem::path& path, Ins
         auto database = Database::open(draft.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
         if (!database) return failure(database);
         if (auto fast = database->execute("PRAGMA synchronous=OFF"); !fast) return failure(fast);  // synced at the end
-        if (auto schema = createSchema(*database); !schema) return failure(schema);
-        if (seal != nullptr) {
-            auto set = database->execute(fmt::format("PRAGMA user_version={}", kSealedVersion));
-            if (!set) return failure(set);
-        }
+        if (auto schema = createSchema(*database, version); !schema) return failure(schema);
         auto store = attach(std::move(*database));
         if (!store) return failure(store);
         store->seal_ = seal;
@@ -109,7 +105,7 @@ Result<SessionStore> SessionStore::annotate(const std::filesystem::path& path) {
     if (!store) return store;
     const auto version = store->database_->number("PRAGMA user_version");
     if (!version) return failure(version);
-    if (*version == kSealedVersion) return store;  // programs that know sealed rows know annotations
+    if (*version >= kAnnotatedVersion) return store;
     auto set = store->database_->execute(fmt::format("PRAGMA user_version={}", kAnnotatedVersion));
     if (!set) return failure(set);
     return store;
@@ -225,26 +221,44 @@ Result<void> SessionStore::write(const Row& row) {
     return insert.run();
 }
 
-Result<void> SessionStore::write(const QueuedChunk& chunk) {
+Result<void> SessionStore::write(QueuedChunk& chunk) {
+    auto& head = chunk.head;
+    const auto& block = chunk.block;
+    head.line = lineThrough(block.t_s);
+    auto parts = recordedBytes(block, !head.line);
+    head.crc = crc32(parts);
+    OutsideRow outside;
+    std::vector<std::byte> sealed;
+    if (seal_ != nullptr) {
+        sealed = sealedBulk(*seal_, seq_ + 1, kind::kChunk, parts);
+        parts = {{{}, sealed}};
+        outside = sealedRow(*seal_, seq_ + 1, kind::kChunk, chunk.at, "", toJsonText(head));
+    } else {
+        const auto stream = static_cast<std::size_t>(head.stream) - 1;
+        if (stream >= packers_.size()) packers_.resize(stream + 1);
+        if (const auto packed = packers_[stream].pack(block, !head.line); !packed.empty()) {
+            head.packing = kPackedAsSteps;
+            parts = {{{}, packed}};
+        }
+        outside = {chunk.at, "", toJsonText(head)};
+    }
+    const auto row = chain(kind::kChunk, outside.at, "", outside.body, bulkDigest(parts));
     auto& insert = statements_->chunk;
-    insert.bind(1, chunk.row.seq);
-    insert.bind(2, std::int64_t{chunk.head.stream});
-    insert.bind(3, chunk.head.index);
-    if (chunk.head.line || seal_ != nullptr) {
+    insert.bind(1, row.seq);
+    insert.bind(2, std::int64_t{head.stream});
+    insert.bind(3, head.index);
+    if (parts[0].empty()) {
         insert.bindNull(4);
     } else {
-        insert.bind(4, std::as_bytes(std::span(chunk.block.t_s)));
+        insert.bind(4, parts[0]);
     }
-    insert.bind(
-        5, seal_ != nullptr ? std::span<const std::byte>(chunk.sealed) : std::as_bytes(std::span(chunk.block.values)));
+    insert.bind(5, parts[1]);
     if (auto ran = insert.run(); !ran) return ran;
-    auto row = chunk.row;
-    row.body = chunk.body;  // the string may have moved since the row was sealed
     return write(row);
 }
 
-Result<void> SessionStore::writeAll(const std::vector<QueuedChunk>& chunks) {
-    for (const auto& chunk : chunks) {
+Result<void> SessionStore::writeAll(std::vector<QueuedChunk>& chunks) {
+    for (auto& chunk : chunks) {
         if (auto written = write(chunk); !written) return written;
     }
     return {};
@@ -268,24 +282,8 @@ Result<std::int64_t> SessionStore::addNow(std::string_view kind, Instant at, std
 }
 
 void SessionStore::queueChunk(Instant at, ChunkHead head, SampleBlock& block) {
-    QueuedChunk chunk;
-    head.line = lineThrough(block.t_s);
-    const std::span<const double> stamps = head.line ? std::span<const double>() : block.t_s;
-    const std::span<const std::byte> parts[] = {std::as_bytes(stamps), std::as_bytes(std::span(block.values))};
-    head.crc = crc32(parts);
-    chunk.head = head;
-    chunk.body = toJsonText(head);
-    if (seal_ == nullptr) {
-        chunk.row = chain(kind::kChunk, at, "", chunk.body, bulkDigest(parts));
-    } else {
-        chunk.sealed = sealedBulk(*seal_, seq_ + 1, kind::kChunk, parts);
-        auto outside = sealedRow(*seal_, seq_ + 1, kind::kChunk, at, "", chunk.body);
-        chunk.body = std::move(outside.body);
-        const std::span<const std::byte> stored[] = {chunk.sealed};
-        chunk.row = chain(kind::kChunk, outside.at, "", chunk.body, bulkDigest(stored));
-    }
-    std::swap(chunk.block, block);
-    queued_.push_back(std::move(chunk));
+    queued_.push_back({at, std::move(head), std::move(block)});
+    block = {};
     if (!spare_.empty()) {
         block = std::move(spare_.back());
         spare_.pop_back();

@@ -14,6 +14,7 @@
 
 #include "core/base/Result.h"
 #include "core/base/Units.h"
+#include "core/packing/PackedColumns.h"
 #include "core/session/Chunk.h"
 #include "core/session/CommitThread.h"
 #include "core/session/Database.h"
@@ -27,9 +28,9 @@ public:
     /// Whether a commit must survive power loss, or only the end of the process.
     enum class Durability { PowerLoss, ProcessEnd };
 
-    /// Creates the file with `about` (JSON) as row 1. See SessionWriter::create().
+    /// Creates the file in the format `version` with `about` (JSON) as row 1. See SessionWriter::create().
     [[nodiscard]] static Result<SessionStore> create(const std::filesystem::path& path, Instant at,
-                                                     std::string_view about,
+                                                     std::string_view about, int version,
                                                      std::shared_ptr<const RowSeal> seal = nullptr);
 
     /// Opens a session that no writer holds, to add annotations after its last row. Errors: ParseError for a damaged
@@ -47,22 +48,25 @@ public:
     /// Adds a row and commits it with all rows before it, so that they survive power loss.
     [[nodiscard]] Result<std::int64_t> addNow(std::string_view kind, Instant at, std::string_view name,
                                               std::string_view body);
-    /// Hashes samples and queues them with their row; the next commit of either kind writes them. `block` is moved from
-    /// and replaced by an empty block with reserved room. `head` must be complete except for line and crc.
+    /// Queues samples; the next row or commit of either kind packs, hashes and writes them first. `block` is moved from
+    /// and replaced by an empty block with reserved room. `head` must be complete except for line, crc and packing.
     void queueChunk(Instant at, ChunkHead head, SampleBlock& block);
     [[nodiscard]] Result<std::int64_t> addCapture(Instant at, std::string_view body, const Digest& digest,
                                                   std::span<const std::byte> data);
     [[nodiscard]] Result<void> commit();
-    /// Writes the queued chunks and commits them on another thread, while the caller hashes the next chunks. The next
-    /// call here reports the errors of that thread.
+    /// Packs, hashes, writes and commits the queued chunks on another thread. The next call here reports the errors of
+    /// that thread.
     [[nodiscard]] Result<void> commitInBackground();
     /// Returns the result of an earlier background commit, if it has ended. Never waits.
     [[nodiscard]] Result<void> collect();
+    /// Waits for an earlier background commit and returns its result.
+    [[nodiscard]] Result<void> settle();
     /// Commits, then moves all rows from the journal to the file.
     [[nodiscard]] Result<void> close();
     /// Closes after an error and drops uncommitted rows: a later row without the failed row would leave a gap.
     void abandon() noexcept;
 
+    // Of the last row written; call settle() first.
     [[nodiscard]] const Digest& head() const noexcept { return head_; }
     [[nodiscard]] std::int64_t rows() const noexcept { return seq_; }
 
@@ -84,11 +88,9 @@ private:
         Digest hash{};
     };
     struct QueuedChunk {
+        Instant at{0};
         ChunkHead head;
         SampleBlock block;
-        std::vector<std::byte> sealed;  // the sealed block, if rows are sealed
-        std::string body;               // the text that row.body points to
-        Row row;
     };
 
     SessionStore(Database database, Statements statements) noexcept
@@ -101,24 +103,24 @@ private:
     [[nodiscard]] Result<Row> put(std::string_view kind, Instant at, std::string_view name, std::string_view body,
                                   const std::optional<Digest>& digest = std::nullopt);
     [[nodiscard]] Result<void> write(const Row& row);
-    [[nodiscard]] Result<void> write(const QueuedChunk& chunk);
-    [[nodiscard]] Result<void> writeAll(const std::vector<QueuedChunk>& chunks);
+    [[nodiscard]] Result<void> write(QueuedChunk& chunk);
+    [[nodiscard]] Result<void> writeAll(std::vector<QueuedChunk>& chunks);
     /// Makes sure that a transaction of at least this durability is open and contains all queued chunks.
     [[nodiscard]] Result<void> begin(Durability durability);
     /// Opens a transaction without writing the queue.
     [[nodiscard]] Result<void> open(Durability durability);
-    /// Waits for an earlier background commit and returns its result.
-    [[nodiscard]] Result<void> settle();
     void recycle(std::vector<QueuedChunk>& chunks);
 
     std::optional<Database> database_;      // empty once closed
     std::optional<Statements> statements_;  // declared after database_, to be destroyed before it
     std::shared_ptr<const RowSeal> seal_;   // null: rows are not sealed
+    // While committing_ runs, it alone uses these, and the database.
     Digest head_{};
     std::int64_t seq_ = 0;
-    std::vector<QueuedChunk> queued_;   // in the chain, not yet written
-    std::vector<QueuedChunk> written_;  // being written by committing_
-    std::vector<SampleBlock> spare_;    // empty blocks with room, so that steady recording does not allocate
+    std::vector<ColumnPacker> packers_;  // one for each stream
+    std::vector<QueuedChunk> written_;
+    std::vector<QueuedChunk> queued_;  // not yet written
+    std::vector<SampleBlock> spare_;   // empty blocks with room, so that steady recording does not allocate
     bool inTransaction_ = false;
     Durability background_ = Durability::PowerLoss;
     Durability current_ = Durability::PowerLoss;  // SQLite's setting, which cannot change inside a transaction

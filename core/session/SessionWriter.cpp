@@ -82,7 +82,7 @@ struct SessionWriter::State {
         const auto samples = stream.pending.samples();
         if (samples == 0) return;
         store.queueChunk(clock.now(),
-                         {static_cast<int>(index) + 1, stream.nextIndex, stream.nextSample, samples, {}, 0},
+                         {static_cast<int>(index) + 1, stream.nextIndex, stream.nextSample, samples, {}, 0, {}},
                          stream.pending);
         ++stream.nextIndex;
         stream.nextSample += samples;
@@ -126,7 +126,8 @@ Result<std::unique_ptr<SessionWriter>> SessionWriter::create(const std::filesyst
     }
     if (about.profileSha256.empty()) about.profileSha256 = sha256Hex(about.profileJson);
     about.virtualClock = clock.isVirtual();
-    auto store = SessionStore::create(path, clock.now(), dumpJson(toJson(about)), std::move(seal));
+    const int version = seal != nullptr ? kSealedVersion : kPackedVersion;
+    auto store = SessionStore::create(path, clock.now(), dumpJson(toJson(about)), version, std::move(seal));
     if (!store) return failure(store);
     return std::unique_ptr<SessionWriter>(new SessionWriter(std::make_unique<State>(path, clock, std::move(*store))));
 }
@@ -278,6 +279,7 @@ std::optional<Error> SessionWriter::failed() const {
 
 std::string SessionWriter::chainHead() const {
     const std::lock_guard lock(state_->mutex);
+    if (!state_->failed) static_cast<void>(state_->kept(state_->store.settle()));
     return hexText(state_->store.head());
 }
 

@@ -23,7 +23,7 @@ namespace {
 using namespace tacto;
 using Bytes = std::vector<char>;
 
-/// Writes a session with a row of every kind, closed in order.
+/// Writes a session with a row of every kind and a packed chunk, closed in order.
 Bytes soundSession(const std::filesystem::path& path) {
     VirtualClock clock;
     SessionAbout about;
@@ -35,7 +35,7 @@ Bytes soundSession(const std::filesystem::path& path) {
     auto& session = **writer;
     const auto stream = session.addStream({StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, 3, 100, "a"});
     SampleBlock block;
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < 64; ++i) {
         block.t_s.push_back(i * 0.01);
         block.values.insert(block.values.end(), {i * 0.5, -1.0, 0.25});
     }

@@ -26,7 +26,7 @@ void chunk(std::string_view text, Data data) {
         return;
     }
     const auto again = parseChunkHead(toJsonText(*head));
-    require(again && again->samples == head->samples && again->crc == head->crc);
+    require(again && again->samples == head->samples && again->crc == head->crc && again->packing == head->packing);
     SampleBlock block;
     for (const std::size_t columns : {1U, 3U}) {
         const auto stamps = head->line ? std::size_t{0} : data.size() / (columns + 1) / 8 * 8;

@@ -73,9 +73,9 @@ TEST_F(SessionBeingWritten, KeepsItsLocksWhenItsBytesAreRead) {
 
 TEST(Schema, CarriesItsIds) {
     auto database = Database::open(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE).value();
-    ASSERT_TRUE(createSchema(database));
+    ASSERT_TRUE(createSchema(database, kPackedVersion));
     EXPECT_EQ(database.number("PRAGMA application_id").value(), 0x54414354);
-    EXPECT_EQ(database.number("PRAGMA user_version").value(), kSchemaVersion);
+    EXPECT_EQ(database.number("PRAGMA user_version").value(), kPackedVersion);
 }
 
 }  // namespace

@@ -56,6 +56,10 @@ inline SampleBlock ramp(double t0, double rate, std::size_t samples, std::size_t
     return block;
 }
 
+inline bool sameBits(const std::vector<double>& a, const std::vector<double>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0);
+}
+
 inline std::vector<char> bytesOf(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};

@@ -189,10 +189,10 @@ TEST_F(SessionVerify, TellsWhatIsNotASession) {
 }
 
 TEST_F(SessionVerify, RefusesASessionOfANewerProgramWithASentence) {
-    test::runSql(path_, "PRAGMA user_version=4");
+    test::runSql(path_, "PRAGMA user_version=5");
     const auto report = verify();
     EXPECT_EQ(report.status, SessionStatus::NotASession);
-    EXPECT_NE(report.problems[0].find("session format 4, made by a newer Tactoscope"), std::string::npos);
+    EXPECT_NE(report.problems[0].find("session format 5, made by a newer Tactoscope"), std::string::npos);
     test::runSql(path_, "PRAGMA user_version=0");
     EXPECT_NE(verify().problems[0].find("no version of Tactoscope has written"), std::string::npos);
 }
