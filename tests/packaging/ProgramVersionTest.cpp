@@ -1,4 +1,4 @@
-// packaging/ProgramVersion.cmake on trees that git knows, and on some that it does not: the oracle is git.
+// resources/packaging/ProgramVersion.cmake on trees that git knows, and on some that it does not: the oracle is git.
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 class Version : public testing::Test {
 protected:
     Version() {
-        fs::create_directories(tree() / "packaging");
+        fs::create_directories(tree() / "resources/packaging");
         fs::create_directories(tree() / "app");
         for (const auto* file : {"ProgramVersion.cmake", "ProgramVersion.cpp.in"})
-            fs::copy(sourceDir() / "packaging" / file, tree() / "packaging" / file);
+            fs::copy(sourceDir() / "resources/packaging" / file, tree() / "resources/packaging" / file);
         write("app/main.cpp", "int main() {}\n");
     }
     fs::path tree() const { return scratch_.path() / "tree"; }
@@ -38,7 +38,7 @@ protected:
     }
     /// Returns the version of release 9.8.7.
     std::string version() const {
-        const auto script = (tree() / "packaging/ProgramVersion.cmake").string();
+        const auto script = (tree() / "resources/packaging/ProgramVersion.cmake").string();
         const auto said = outputOf("TZ=America/Los_Angeles cmake -D release=9.8.7 -P '" + script + "'").first;
         return said.substr(0, said.find('\n'));
     }
@@ -92,7 +92,7 @@ TEST_F(Version, IsWrittenAnewOnlyWhereItChanged) {
     const auto write = [&](const std::string& libraries) {
         const auto [said, code] = outputOf("cmake -D release=9.8.7 -D 'compiler=Clang 1' -D 'libraries=" + libraries +
                                            "' -D 'out=" + out.string() + "' -P '" +
-                                           (tree() / "packaging/ProgramVersion.cmake").string() + "'");
+                                           (tree() / "resources/packaging/ProgramVersion.cmake").string() + "'");
         EXPECT_EQ(code, 0) << said;
         std::ifstream in(out);
         return std::string(std::istreambuf_iterator<char>(in), {});

@@ -2,7 +2,7 @@
 # Writes FILE, what each program says of itself (core/base/ProgramVersion.h), if that has changed. Without -D out the
 # version is printed.
 cmake_minimum_required(VERSION 3.25)
-get_filename_component(tree ${CMAKE_CURRENT_LIST_DIR} DIRECTORY)
+get_filename_component(tree ${CMAKE_CURRENT_LIST_DIR}/../.. ABSOLUTE)
 
 # ask(VARIABLE ARGUMENT...): what git says of this tree, also of one that is another user's; empty if it says nothing
 function(ask variable)
@@ -25,7 +25,7 @@ if(prefix MATCHES "^\n?([0-9a-f]+)$")
     ask(date show --no-patch --format=%cd --date=format-local:%Y-%m-%d HEAD)
     # What is not in git counts where it may be built in, and not where a user keeps sessions.
     ask(changed status --porcelain --untracked-files=no)
-    ask(added ls-files --others --exclude-standard -- app core drivers resources packaging)
+    ask(added ls-files --others --exclude-standard -- app core drivers resources)
     ask(released describe --exact-match --tags --match "v${release}" HEAD)
     if(changed OR added)
         set(dirty true)

@@ -14,7 +14,7 @@ set(version_file ${CMAKE_BINARY_DIR}/core/base/ProgramVersion.cpp)
 add_custom_target(ask_version
     COMMAND ${CMAKE_COMMAND} -D release=${PROJECT_VERSION}
             -D "compiler=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}" -D "libraries=${version_libraries}"
-            -D out=${version_file} -P ${PROJECT_SOURCE_DIR}/packaging/ProgramVersion.cmake
+            -D out=${version_file} -P ${PROJECT_SOURCE_DIR}/resources/packaging/ProgramVersion.cmake
     BYPRODUCTS ${version_file} VERBATIM)
 add_library(tacto_program_version OBJECT ${version_file})
 set_target_properties(tacto_program_version PROPERTIES AUTOMOC OFF UNITY_BUILD OFF)
@@ -32,14 +32,14 @@ set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
 install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 # Icons are built in; licences stand in copyright.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/resources/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tactoscope
-        PATTERN desktop EXCLUDE PATTERN udev EXCLUDE PATTERN icons EXCLUDE PATTERN LICENSE EXCLUDE)
+        PATTERN desktop EXCLUDE PATTERN packaging EXCLUDE PATTERN udev EXCLUDE PATTERN icons EXCLUDE PATTERN LICENSE EXCLUDE)
 # udev reads /usr/local/lib/udev and /usr/lib/udev alike.
 install(FILES ${PROJECT_SOURCE_DIR}/resources/udev/70-tactoscope.rules DESTINATION lib/udev/rules.d)
 set(desktop ${PROJECT_SOURCE_DIR}/resources/desktop/io.github.tactoscope.Tactoscope)
 install(FILES ${desktop}.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 install(FILES ${desktop}.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
 install(FILES ${desktop}.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
-install(CODE "execute_process(COMMAND \"${PROJECT_SOURCE_DIR}/packaging/documents\" \"${CMAKE_RUNTIME_OUTPUT_DIRECTORY}\"
+install(CODE "execute_process(COMMAND \"${PROJECT_SOURCE_DIR}/resources/packaging/documents\" \"${CMAKE_RUNTIME_OUTPUT_DIRECTORY}\"
                                       \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\" COMMAND_ERROR_IS_FATAL ANY)")
 
 set(CPACK_PACKAGE_NAME tactoscope)
@@ -67,5 +67,5 @@ set(CPACK_DEBIAN_PACKAGE_SUGGESTS "pulseview, python3-pyvisa-py")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_CMAKE_BINARY_DIR ${CMAKE_BINARY_DIR})
 set(CPACK_CMAKE_SYSTEM_PROCESSOR ${CMAKE_SYSTEM_PROCESSOR})
-set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/packaging/Package.cmake)
+set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/resources/packaging/Package.cmake)
 include(CPack)
