@@ -27,6 +27,7 @@ int targetCount(const PilotPrompt& prompt) {
 }
 
 AnswerKeys::AnswerKeys(KeySet set, const PilotPrompt& prompt) {
+    if (prompt.kind == PromptKind::Hold) return;  // answered by its own key, which has no target among `targets`
     const auto count = std::size_t(targetCount(prompt));
     if (prompt.kind == PromptKind::Scale) {
         for (int value = prompt.least; value <= prompt.most; ++value)

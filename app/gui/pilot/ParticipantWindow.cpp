@@ -5,13 +5,11 @@
 #include <QScreen>
 #include <QWindow>
 #include <algorithm>
-#include <cstdlib>
-#include <memory>
 #include <utility>
-#include <xcb/xcb.h>
 
 #include "app/gui/pilot/ParticipantFace.h"
 #include "app/gui/pilot/ParticipantField.h"
+#include "app/gui/theme/KeyState.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 
@@ -24,24 +22,6 @@ constexpr int kHoldKey = Qt::Key_H, kHoldKeyLeft = Qt::Key_G;
 constexpr int kFirstButton = 0x4000'0000;    // above every Qt::Key value
 constexpr const char* kDone = "done";        // the target that ends a Several question
 constexpr const char* kStopsAs = "stopsAs";  // property that StopKeys reads
-
-/// True if a key is still down although its window received a release. X repeats a held key as pairs of release and
-/// press. Qt marks a pair as a repeat only if both wait in the queue at once; otherwise Qt reports a release of a key
-/// that is still held. Letting go is a STOP, so we ask the X server about the key (a round trip on this computer).
-/// Returns false on other platforms, which mark repeats. A key pressed again before this release is handled counts as
-/// held; its next release is handled.
-bool isStillDown(const QKeyEvent& released) {
-    // The offscreen platform offers this interface too, but has no server.
-    const auto* x11 = qGuiApp->nativeInterface<QNativeInterface::QX11Application>();
-    auto* server = x11 != nullptr && QGuiApplication::platformName() == "xcb" ? x11->connection() : nullptr;
-    if (server == nullptr) return false;
-    const std::unique_ptr<xcb_query_keymap_reply_t, decltype(&std::free)> keys(
-        xcb_query_keymap_reply(server, xcb_query_keymap(server), nullptr), &std::free);
-    const auto code = released.nativeScanCode();
-    constexpr quint32 kBits = 8;
-    return keys != nullptr && code / kBits < std::size(keys->keys) &&
-           (keys->keys[code / kBits] >> (code % kBits) & 1) != 0;
-}
 
 }  // namespace
 
@@ -76,6 +56,7 @@ ParticipantWindow::ParticipantWindow(ParticipantDesk& desk, std::function<void(c
     connect(&desk_, &ParticipantDesk::screenChanged, this, &ParticipantWindow::showScreen);
     connect(&desk_, &ParticipantDesk::asked, this, &ParticipantWindow::ask);
     connect(&desk_, &ParticipantDesk::closed, this, &ParticipantWindow::closeQuestion);
+    qApp->installEventFilter(this);
     ticking_.setInterval(kTick_ms);
     connect(&ticking_, &QTimer::timeout, this, &ParticipantWindow::tick);
     showState();
@@ -342,9 +323,13 @@ void ParticipantWindow::keyPressEvent(QKeyEvent* event) {
     if (const auto target = keys_.targetOf(key)) choose(*target, at);
 }
 
-void ParticipantWindow::keyReleaseEvent(QKeyEvent* event) {
-    if (event->isAutoRepeat() || heldKey_ == 0 || event->key() != heldKey_ || isStillDown(*event)) return;
-    letGo();
+/// Letting go is heard whatever has the focus: a line of text in the operator's strip keeps the releases it gets. A key
+/// pressed again before its release is handled counts as held.
+bool ParticipantWindow::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() != QEvent::KeyRelease || heldKey_ == 0) return QWidget::eventFilter(watched, event);
+    const auto& key = *static_cast<QKeyEvent*>(event);
+    if (!key.isAutoRepeat() && key.key() == heldKey_ && !isKeyDown(key.nativeScanCode()).value_or(false)) letGo();
+    return false;
 }
 
 void ParticipantWindow::mousePressEvent(QMouseEvent* /*event*/) {

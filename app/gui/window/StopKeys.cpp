@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "app/gui/theme/ConfirmButton.h"
+#include "app/gui/theme/KeyState.h"
 
 namespace tacto::gui {
 
@@ -40,8 +41,10 @@ StopKeys::StopKeys(std::function<void(const char*)> stop, QObject* parent) : QOb
     first_.setInterval(kFirstEvery_ms);
     stayFirst(true);
     returnReleased_.setSingleShot(true);
-    returnReleased_.setInterval(kReleased_ms);
-    connect(&returnReleased_, &QTimer::timeout, this, [this] { returnHeld_ = false; });
+    connect(&returnReleased_, &QTimer::timeout, this, [this] {
+        returnHeld_ = isKeyDown(returnCode_).value_or(false);
+        if (returnHeld_) returnReleased_.start(kReleased_ms);
+    });
 }
 
 void StopKeys::stayFirst(bool stays) {
@@ -57,7 +60,8 @@ bool StopKeys::eventFilter(QObject* watched, QEvent* event) {
         auto* widget = static_cast<QWidget*>(watched);
         if (widget->isWindow() && widget->isModal()) widget->setWindowModality(Qt::NonModal);
     }
-    if (event->type() == QEvent::KeyRelease && isReturn(*static_cast<QKeyEvent*>(event))) returnReleased_.start();
+    if (event->type() == QEvent::KeyRelease && isReturn(*static_cast<QKeyEvent*>(event)))
+        returnReleased_.start(kReleased_ms);
     if (event->type() != QEvent::KeyPress && event->type() != QEvent::ShortcutOverride) return false;
     return pressed(watched, *static_cast<QKeyEvent*>(event));
 }
@@ -65,7 +69,8 @@ bool StopKeys::eventFilter(QObject* watched, QEvent* event) {
 /// The first press of Return presses the focused button. The repeats of a held key press no button and enter no line,
 /// wherever the focus is by then.
 bool StopKeys::returnPressed(QObject* watched, const QKeyEvent& key) {
-    returnReleased_.stop();
+    returnCode_ = key.nativeScanCode();
+    returnReleased_.start(isKeyDown(returnCode_) ? kReleased_ms : kSilent_ms);
     auto* button = qobject_cast<QAbstractButton*>(watched);
     if (std::exchange(returnHeld_, true) || key.isAutoRepeat())
         return button != nullptr || qobject_cast<const QLineEdit*>(watched) != nullptr;

@@ -16,7 +16,9 @@ class QKeyEvent;
 namespace tacto::gui {
 
 /// A held key repeats presses and releases, and X does not always mark them as repeats. So Return counts as one press
-/// until no further press has come for kReleased_ms.
+/// until no further press has come for kReleased_ms and it is not down. Its release is lost if the press closed the
+/// window that had the keys: where the display cannot tell, Return counts as released once it was silent for
+/// kSilent_ms.
 class StopKeys final : public QObject {
     Q_OBJECT
 public:
@@ -34,9 +36,10 @@ private:
     [[nodiscard]] static bool isParticipants(const QObject* watched);
     [[nodiscard]] bool pressed(QObject* watched, const QKeyEvent& key);
     [[nodiscard]] bool returnPressed(QObject* watched, const QKeyEvent& key);
-    static constexpr int kReleased_ms = 150;
+    static constexpr int kReleased_ms = 150, kSilent_ms = 1000;
     const std::function<void(const char*)> stop_;
     bool returnHeld_ = false;
+    quint32 returnCode_ = 0;
     QTimer returnReleased_, first_;
 };
 

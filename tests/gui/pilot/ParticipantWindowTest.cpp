@@ -1,7 +1,13 @@
 // Tests the participant's answers by key, mouse and finger (once, after the targets), and stops from everywhere.
 #include <QAbstractButton>
+#include <QComboBox>
 #include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QPlainTextEdit>
 #include <QPointingDevice>
+#include <QPushButton>
+#include <QSpinBox>
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <set>
@@ -199,6 +205,31 @@ TEST_F(Seated, LettingGoWhileLevelsRiseStops) {
     EXPECT_FALSE(desk.holding());
 }
 
+TEST_F(Seated, LettingGoIsHeardWhateverHasTheFocus) {
+    RecordProperty("hazard", "H6");
+    auto* strip = new QWidget;
+    const std::vector<QWidget*> fields{new QLineEdit(strip), new QPlainTextEdit(strip), new QPushButton(strip),
+                                       new QComboBox(strip), new QSpinBox(strip),       new QMenu(strip)};
+    window.setStrip(strip);
+    window.openStrip(true);
+    for (auto* field : fields) {
+        window.setFocus();
+        ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
+        QTest::keyPress(window.windowHandle(), Qt::Key_H);
+        ASSERT_TRUE(answered());
+        ASSERT_NO_FATAL_FAILURE(ask(strengthPrompt()));
+        ASSERT_TRUE(desk.holding());
+        field->show();
+        field->setFocus();
+        QTest::keyRelease(field, Qt::Key_H);
+        EXPECT_FALSE(desk.holding()) << field->metaObject()->className();
+        field->hide();
+        window.setFocus();
+        key(Qt::Key_1);
+        ASSERT_TRUE(answered());
+    }
+}
+
 TEST_F(Seated, WithOneHandTheyLetGoToAnswerAndHoldAgain) {
     RecordProperty("hazard", "H6");
     auto* hold = window.findChild<gui::AnswerTarget*>("hold");
@@ -313,6 +344,35 @@ TEST_F(Seated, AScaleAndSeveralAnswers) {
     key(Qt::Key_3);
     key(Qt::Key_Return);
     EXPECT_THAT(answered()->keys, ElementsAre("touch", "burning"));
+}
+
+TEST_F(Seated, NoKeyAnswersWhatIsNotAsked) {
+    RecordProperty("hazard", "H6");
+    auto several = choicePrompt("qualities", "What was it like?", {{"touch", "Touch"}, {"burning", "Burning"}});
+    several.kind = PromptKind::Several;
+    auto text = goOnPrompt("Anything else?", PromptTo::Participant);
+    text.kind = PromptKind::Text;
+    text.targets.clear();
+    const std::pair<PilotPrompt, std::set<int>> questions[] = {
+        {holdPrompt(), {Qt::Key_H, Qt::Key_G}},
+        {goOnPrompt("Go on?", PromptTo::Participant), {Qt::Key_1, Qt::Key_W, Qt::Key_U}},
+        {several, {Qt::Key_Return, Qt::Key_Enter, Qt::Key_3, Qt::Key_S, Qt::Key_J}},
+        {text, {}},
+    };
+    for (const auto set : {gui::KeySet::Figures, gui::KeySet::LeftHand, gui::KeySet::RightHand}) {
+        window.setKeys(set);
+        for (const auto& [question, answers] : questions) {
+            ASSERT_NO_FATAL_FAILURE(ask(question));
+            for (int each = Qt::Key_Exclam; each <= Qt::Key_Z; ++each) {
+                if (!answers.contains(each)) key(static_cast<Qt::Key>(each));
+            }
+            letLive(10);
+            EXPECT_FALSE(isAnswered()) << question.name;
+            desk.leave();
+            EXPECT_FALSE(answered());
+            desk.begin(nullptr);
+        }
+    }
 }
 
 TEST_F(Seated, TheStopTestIsAnsweredByStopAlone) {

@@ -117,6 +117,17 @@ TEST_F(Keys, AHeldReturnIsOnePress) {
     EXPECT_EQ(clicks, 1);
 }
 
+/// The press closed the window that had the keys, so no window got the release.
+TEST_F(Keys, ReturnWhoseReleaseIsLostPressesTheNextButton) {
+    RecordProperty("hazard", "H12");
+    button.setFocus();
+    QTest::sendKeyEvent(QTest::Press, window.windowHandle(), Qt::Key_Return, QString(), Qt::NoModifier);
+    EXPECT_EQ(clicks, 1);
+    letLive(1200);
+    press(Qt::Key_Return, button);
+    EXPECT_EQ(clicks, 2);
+}
+
 TEST_F(Keys, ShiftF5StopsFromEveryFocus) {
     RecordProperty("hazard", "H2");
     for (QWidget* focus : std::initializer_list<QWidget*>{&button, &line}) {
