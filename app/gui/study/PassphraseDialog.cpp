@@ -161,6 +161,7 @@ void PassphraseEdit::wipe() {
 }
 
 void PassphraseEdit::add(const QString& text) {
+    if (hasSelectedText() && !text.isEmpty()) wipe();
     for (const char32_t point : text.toUcs4()) {
         if (point < 0x20 || point == 0x7F) continue;
         std::array<char, 4> utf8{};
@@ -173,6 +174,7 @@ void PassphraseEdit::add(const QString& text) {
 }
 
 void PassphraseEdit::takeLast() {
+    if (hasSelectedText()) return wipe();
     while (size_ > 0) {
         const auto byte = std::exchange(held_.bytes()[--size_], std::byte{0});
         if (!continues(byte)) break;
@@ -190,15 +192,19 @@ bool PassphraseEdit::event(QEvent* event) {
     // A letter is text here, not a shortcut.
     if (event->type() == QEvent::ShortcutOverride && !static_cast<QKeyEvent*>(event)->text().isEmpty()) {
         const auto* key = static_cast<QKeyEvent*>(event);
-        if (key->key() != Qt::Key_Escape && !(key->modifiers() & (Qt::ControlModifier | Qt::AltModifier)))
-            event->accept();
+        const bool chord = key->modifiers() & (Qt::ControlModifier | Qt::AltModifier);
+        if (key->matches(QKeySequence::SelectAll) || (key->key() != Qt::Key_Escape && !chord)) event->accept();
     }
     return QLineEdit::event(event);
 }
 
 void PassphraseEdit::keyPressEvent(QKeyEvent* event) {
     if (event->matches(QKeySequence::Paste)) return add(QGuiApplication::clipboard()->text());
+    if (event->matches(QKeySequence::SelectAll)) return selectAll();
     switch (event->key()) {
+        case Qt::Key_Delete:
+            if (hasSelectedText()) wipe();
+            return;
         case Qt::Key_Backspace:
             return event->modifiers() & Qt::ControlModifier ? wipe() : takeLast();
         case Qt::Key_Return:
@@ -224,9 +230,17 @@ void PassphraseEdit::inputMethodEvent(QInputMethodEvent* event) {
     event->accept();
 }
 
-/// A click only sets the focus: the cursor always stays at the end.
+/// A click only sets the focus: the cursor always stays at the end. Only all of it can be selected.
 void PassphraseEdit::mousePressEvent(QMouseEvent* event) {
     setFocus(Qt::MouseFocusReason);
+    deselect();
+    event->accept();
+}
+
+void PassphraseEdit::mouseMoveEvent(QMouseEvent* event) { event->accept(); }
+
+void PassphraseEdit::mouseDoubleClickEvent(QMouseEvent* event) {
+    selectAll();
     event->accept();
 }
 

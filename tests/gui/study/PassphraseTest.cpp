@@ -39,6 +39,54 @@ TEST(PassphraseEdit, HoldsWhatIsTypedAndShowsDots) {
     EXPECT_TRUE(edit.text().isEmpty());
 }
 
+/// A study is lost with its passphrase, so what looks replaced must be.
+TEST(PassphraseEdit, WhatIsSelectedIsReplaced) {
+    RecordProperty("hazard", "H11");
+    gui::PassphraseEdit edit;
+    edit.show();
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&edit));
+    const std::pair<const char*, std::function<void()>> selects[] = {
+        {"Ctrl+A", [&] { QTest::keyClick(&edit, Qt::Key_A, Qt::ControlModifier); }},
+        {"a double click", [&] { QTest::mouseDClick(&edit, Qt::LeftButton); }},
+        {"Tab",
+         [&] {
+             edit.clearFocus();
+             edit.setFocus(Qt::TabFocusReason);
+         }},
+    };
+    const std::pair<const char*, std::function<void()>> replaces[] = {
+        {"typing", [&] { QTest::keyClicks(&edit, "other"); }},
+        {"Backspace",
+         [&] {
+             QTest::keyClick(&edit, Qt::Key_Backspace);
+             QTest::keyClicks(&edit, "other");
+         }},
+        {"Delete",
+         [&] {
+             QTest::keyClick(&edit, Qt::Key_Delete);
+             QTest::keyClicks(&edit, "other");
+         }},
+        {"pasting",
+         [&] {
+             QGuiApplication::clipboard()->setText("other");
+             QTest::keyClick(&edit, Qt::Key_V, Qt::ControlModifier);
+         }},
+    };
+    for (const auto& [how, select] : selects) {
+        for (const auto& [what, replace] : replaces) {
+            edit.wipe();
+            QTest::keyClicks(&edit, "first");
+            select();
+            ASSERT_EQ(edit.selectedText().size(), 5) << how;
+            replace();
+            EXPECT_EQ(textOf(edit.typed()), "other") << how << ", " << what;
+        }
+    }
+    QTest::mouseClick(&edit, Qt::LeftButton);
+    QTest::keyClicks(&edit, "s");
+    EXPECT_EQ(textOf(edit.typed()), "others") << "a click selects nothing";
+}
+
 TEST(PassphraseEdit, TakesNoMoreThanItHasRoomFor) {
     RecordProperty("hazard", "H11");
     gui::PassphraseEdit edit;
