@@ -1,6 +1,7 @@
 #include "app/gui/study/StudyPage.h"
 
 #include <QDir>
+#include <QSettings>
 #include <QStandardPaths>
 
 #include "app/gui/study/StudyList.h"
@@ -16,6 +17,8 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kFormWide = 900;
+constexpr const char* kRecent = "recentStudies";  // of QSettings
+constexpr qsizetype kMaxRecent = 4;
 
 /// Returns a dialog that closes once the study is open, and asks again if the passphrase is refused.
 PassphraseDialog* asksFor(OpenStudy& study, PassphraseDialog::Purpose purpose, const QString& title, QWidget* parent) {
@@ -23,6 +26,13 @@ PassphraseDialog* asksFor(OpenStudy& study, PassphraseDialog::Purpose purpose, c
     QObject::connect(&study, &OpenStudy::opened, asks, &QDialog::accept);
     QObject::connect(&study, &OpenStudy::refused, asks, &PassphraseDialog::refuse);
     return asks;
+}
+
+void remember(const QString& folder) {
+    auto folders = QSettings().value(kRecent).toStringList();
+    folders.removeAll(folder);
+    folders.prepend(folder);
+    QSettings().setValue(kRecent, QStringList(folders.mid(0, kMaxRecent)));
 }
 
 }  // namespace
@@ -45,10 +55,11 @@ StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
         results_->show(shown);
         pages_->setCurrentIndex(kResults);
     });
-    connect(new_, &NewStudyPage::cancelled, this, [this] { pages_->setCurrentIndex(kNone); });
+    connect(new_, &NewStudyPage::cancelled, this, &StudyPage::showNone);
     connect(list_, &StudyList::sessionWanted, this, &StudyPage::sessionWanted);
     connect(&study_, &OpenStudy::opened, this, [this] {
         say({});
+        remember(study_.folder());
         list_->sayWhatHinders();
         pages_->setCurrentIndex(kList);
     });
@@ -58,7 +69,7 @@ StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
     connect(&study_, &OpenStudy::changed, this, [this] {
         if (!study_.folder().isEmpty()) return;
         results_->show({});
-        if (pages_->currentIndex() >= kList) pages_->setCurrentIndex(kNone);
+        if (pages_->currentIndex() >= kList) showNone();
     });
 }
 
@@ -83,7 +94,10 @@ QWidget* StudyPage::buildNone() {
     for (auto* button : {open, create}) row->addWidget(button);
     row->addStretch();
     column->addLayout(row);
+    recent_ = new QVBoxLayout;
+    column->addLayout(recent_);
     column->addStretch();
+    showRecent();
     connect(open, &QPushButton::clicked, this, &StudyPage::chooseFolder);
     connect(create, &QPushButton::clicked, this, [this] {
         say({});
@@ -92,6 +106,28 @@ QWidget* StudyPage::buildNone() {
     });
     around->hold(page);
     return around;
+}
+
+void StudyPage::showNone() {
+    showRecent();
+    pages_->setCurrentIndex(kNone);
+}
+
+/// Offers the studies that were open last, as far as they are still there.
+void StudyPage::showRecent() {
+    while (auto* item = recent_->takeAt(0)) {
+        if (item->widget() != nullptr) item->widget()->deleteLater();
+        delete item;
+    }
+    for (const auto& folder : QSettings().value(kRecent).toStringList()) {
+        const auto look = study_.look(folder);
+        if (!look) continue;
+        const auto words =
+            fontMetrics().elidedText(tr("%1, in %2").arg(look->title, folder), Qt::ElideMiddle, scaledPx(kFormWide));
+        auto* button = pageButton(QString(words).replace("&", "&&"), "recentStudy", folder, trouble_->parentWidget());
+        connect(button, &QPushButton::clicked, this, [this, folder] { open(folder); });
+        recent_->addWidget(button, 0, Qt::AlignLeft);
+    }
 }
 
 void StudyPage::chooseFolder() {

@@ -35,11 +35,14 @@ signals:
 private:
     enum Page { kNone, kNew, kList, kResults };
     [[nodiscard]] QWidget* buildNone();
+    void showNone();
+    void showRecent();
     void chooseFolder();
     void say(const QString& what);
     OpenStudy& study_;
     PageStack* pages_;
     NewStudyPage* new_;
+    QVBoxLayout* recent_ = nullptr;
     StudyList* list_ = nullptr;
     StudyResults* results_ = nullptr;
     TroubleLine* trouble_ = nullptr;

@@ -15,6 +15,7 @@
 #include <QListView>
 #include <QProcess>
 #include <QScreen>
+#include <QSettings>
 #include <QShortcut>
 #include <QStandardPaths>
 #include <QTreeView>
@@ -29,6 +30,8 @@ namespace tacto::gui {
 namespace {
 
 using Wants = FileQuestion::Wants;
+
+constexpr const char* kLastFolder = "lastFolder";  // of QSettings
 
 /// Chooses icons by file name. Qt's own provider opens each file to find its type, and closing any descriptor of a file
 /// releases the process's locks on that file: also the locks with which SQLite protects the index of a session being
@@ -108,14 +111,18 @@ public:
         const bool replaces = acceptMode() == AcceptSave && file.isFile();
         if (replaces && std::exchange(replaces_, file.absoluteFilePath()) != file.absoluteFilePath())
             return say(QObject::tr("⚠ %1 exists. Press Save again to replace it.").arg(file.fileName()));
-        lastFolder() = directory().absolutePath();
+        QSettings().setValue(kLastFolder, file.absolutePath());
         QFileDialog::accept();
     }
 
 private:
-    static QString& lastFolder() {
-        static QString folder = QDir::currentPath();
-        return folder;
+    /// The folder in which something was chosen last, perhaps on an earlier day; at first the one that this program
+    /// proposes for what it makes.
+    static QString lastFolder() {
+        const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+        for (const auto& folder : {QSettings().value(kLastFolder).toString(), documents + "/Tactoscope", documents})
+            if (!folder.isEmpty() && QFileInfo(folder).isDir()) return folder;
+        return QDir::homePath();
     }
     void say(const QString& what) {
         says_->setText(what);

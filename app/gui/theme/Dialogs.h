@@ -32,7 +32,7 @@ struct FileQuestion {
     QString title = {};
     Wants wants = Wants::ExistingFile;
     QStringList filters = {};  ///< "Profiles (*.json)"; empty: all files
-    QString folder = {};       ///< the folder shown first; empty: the last one used
+    QString folder = {};       ///< the folder shown first; empty: the last one used, on any day
     QString name = {};         ///< the suggested name
     QString suffix = {};       ///< added to a name without a suffix; written without a dot
 };

@@ -2,6 +2,7 @@
 
 #include <QCalendarWidget>
 #include <QDate>
+#include <QFileInfo>
 #include <QKeyEvent>
 #include <QMenu>
 #include <QPushButton>
@@ -28,6 +29,9 @@ FolderRow::FolderRow(const QString& path, const QString& tip, const QString& que
     auto* choose = pageButton(tr("Ch&oose…"), {}, tr("Chooses the folder from a list."), this);
     connect(choose, &QPushButton::clicked, this, [this, question] {
         FileQuestion asked{.title = question, .wants = FileQuestion::Wants::NewFolder};
+        for (QFileInfo above(QFileInfo(folder()).absolutePath()); !folder().isEmpty() && asked.folder.isEmpty();
+             above.setFile(above.absolutePath()))
+            if (above.isDir()) asked.folder = above.absoluteFilePath();
         askForFile(*this, asked, [this](const QString& chosen) { line_->setText(chosen); });
     });
     row->addWidget(line_, 1);

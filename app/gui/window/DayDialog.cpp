@@ -2,6 +2,7 @@
 
 #include <QDialogButtonBox>
 #include <QEvent>
+#include <QMenuBar>
 #include <QPushButton>
 #include <QVBoxLayout>
 
@@ -48,6 +49,8 @@ DayDialog::DayDialog(DayNotes& day, QWidget* parent) : QDialog(parent) {
     growWithContent(*this);
 }
 
+constexpr int kWidest = 40;  // characters
+
 DayButton::DayButton(DayNotes& day, QWidget* parent) : QToolButton(parent), day_(day) {
     setObjectName("dayButton");
     setAutoRaise(true);
@@ -58,11 +61,17 @@ DayButton::DayButton(DayNotes& day, QWidget* parent) : QToolButton(parent), day_
 }
 
 void DayButton::say() {
-    const auto words = day_.words();
-    setText(words.isEmpty() ? tr("Operator and sample…") : words);
-    setAccessibleName(words.isEmpty() ? text() : tr("Operator and sample: %1").arg(words));
+    const auto words = day_.words(), nothing = tr("Operator and sample…");
+    const auto& metrics = fontMetrics();
+    const auto before = text();
+    setText(words.isEmpty() ? nothing
+                            : metrics.elidedText(words, Qt::ElideRight, kWidest * metrics.averageCharWidth()));
+    setAccessibleName(words.isEmpty() ? nothing : tr("Operator and sample: %1").arg(words));
     setToolTip(words.isEmpty() ? tr("Not entered today: sessions and reports will say “not recorded”.")
-                               : tr("In every session and report of today. Press to change it."));
+                               : tr("%1: in every session and report of today. Press to change it.").arg(words));
+    // A menu bar gives its corner room only when it is set.
+    auto* bar = qobject_cast<QMenuBar*>(parentWidget());
+    if (bar != nullptr && text() != before) bar->setCornerWidget(this, Qt::TopRightCorner);
 }
 
 /// Updates the text, because midnight may have passed.

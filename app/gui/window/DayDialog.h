@@ -15,7 +15,7 @@ public:
     DayDialog(DayNotes& day, QWidget* parent);
 };
 
-/// Shows "A. Weber · sample S-014", or asks for both.
+/// Shows "A. Weber · sample S-014", or asks for both; in a menu bar it stands in the right corner.
 class DayButton final : public QToolButton {
     Q_OBJECT
 public:

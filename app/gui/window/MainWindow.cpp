@@ -160,7 +160,6 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     new Menus(*this, rail_->workspaces(), *docks_, *line_);
     auto* day = new DayButton(controller_.day(), menuBar());
     connect(day, &QToolButton::clicked, this, [this] { askForDay(false); });
-    menuBar()->setCornerWidget(day, Qt::TopRightCorner);
     connect(&controller_.day(), &DayNotes::wanted, this, [this] {
         askForDay(true);
         line_->say(DayNotes::wantedText());

@@ -101,6 +101,20 @@ TEST_F(StudyPageTest, EnrollingLeadsToTheConsentOfThatParticipantAndEnrolsOnce) 
     EXPECT_EQ(people->selectionModel()->selectedRows().front().row(), 1) << "the next step is with them";
 }
 
+TEST_F(StudyPageTest, WhatWasOpenLastIsOfferedAgainWhileItIsThere) {
+    study.close();
+    auto* again = page.findChild<QPushButton*>("recentStudy");
+    ASSERT_NE(again, nullptr);
+    EXPECT_THAT(again->text().toStdString(), HasSubstr("Four conditions"));
+    shot(page, "recent-study");
+    click(*again);
+    ASSERT_IN_TIME(comesTrue([this] { return dialog("passphraseDialog") != nullptr; }));
+    dialog("passphraseDialog")->reject();
+    std::filesystem::rename(scratch.path() / "study", scratch.path() / "moved");
+    const gui::StudyPage later(study);
+    EXPECT_EQ(later.findChild<QPushButton*>("recentStudy"), nullptr);
+}
+
 TEST_F(StudyPageTest, LeavingKeepsTheDataAndEndsThePart) {
     RecordProperty("hazard", "H11");
     const auto code = enrol(false);

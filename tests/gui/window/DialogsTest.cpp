@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/EntryFields.h"
 #include "app/gui/window/StopKeys.h"
 #include "tests/gui/Person.h"
 #include "tests/support/InTime.h"
@@ -80,6 +81,29 @@ TEST_F(Asking, DoesNotBlockTheWindow) {
     ask(gui::FileQuestion::Wants::ExistingFile);
     EXPECT_FALSE(chooser()->isModal());
     EXPECT_EQ(chooser()->windowHandle()->modality(), Qt::NonModal);
+}
+
+TEST_F(Asking, BeginsWhereSomethingWasChosenLast) {
+    std::filesystem::create_directories(folder.path() / "deep" / "study");
+    ask(gui::FileQuestion::Wants::Folder);
+    answer(QString::fromStdString((folder.path() / "deep" / "study").string()));  // typed, not walked to
+    ASSERT_EQ(chosen.size(), 1);
+    letLive(20);
+    gui::FileQuestion question;
+    question.title = "Choose again";
+    gui::askForFile(window, question, [](const QString&) {});
+    auto* again = window.findChildren<QFileDialog*>("fileChooser").last();
+    EXPECT_EQ(again->directory().absolutePath().toStdString(), (folder.path() / "deep").string());
+}
+
+TEST_F(Asking, ANewFolderIsChosenBesideTheOneThatIsProposed) {
+    const auto proposed = QString::fromStdString((folder.path() / "not" / "yet" / "made").string());
+    gui::FolderRow row(proposed, "Where it goes", "The folder", &window);
+    row.show();
+    click(*row.findChild<QPushButton*>());
+    auto* shown = row.findChild<QFileDialog*>("fileChooser");
+    ASSERT_NE(shown, nullptr);
+    EXPECT_EQ(shown->directory().absolutePath().toStdString(), folder.path().string());
 }
 
 TEST_F(Asking, AFileIsReplacedOnlyAfterASecondPress) {

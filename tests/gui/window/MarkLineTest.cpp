@@ -194,7 +194,13 @@ TEST_F(Marks, OperatorAndSampleOfTheDayStandInEverySessionAndAreShown) {
     EXPECT_EQ(faultsOf(*dialog), "");
     click(*find<QPushButton>(*dialog, "Done"));
     EXPECT_EQ(button->text(), "A. Weber · sample S-014");
+    EXPECT_GE(button->width(), button->sizeHint().width()) << "the text is cut";
     shot(window, "day-in-the-menu-bar");
+    window.controller().day().set({.operatorName = std::string(200, 'w'), .sample = "S-014"});
+    EXPECT_GE(button->width(), button->sizeHint().width());
+    EXPECT_LT(button->width(), window.width() / 2) << "the menus keep their room";
+    EXPECT_TRUE(button->toolTip().contains("S-014"));
+    window.controller().day().set({.operatorName = "A. Weber", .sample = "S-014"});
     for (const auto* edit : window.findChildren<QLineEdit*>("sample")) EXPECT_EQ(edit->text(), "S-014");
     window.askForDay(true);
     EXPECT_EQ(find<QLabel>(window, "Who is working today, and on what?"), nullptr) << "asked once a day";
