@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <filesystem>
 #include <fmt/format.h>
+
+#include "core/base/ProgramStart.h"
 
 namespace tacto {
 
@@ -22,19 +25,25 @@ Login thisLogin() {
     return std::ranges::any_of(kOfASeat, isSet) ? Login::Seat : Login::Unknown;
 }
 
-std::string permissionAdvice(std::string_view device, Login login) {
+std::string rulesCommand() {
+    constexpr const char* kInstalled = "tactoscope-install-rules";
+    std::error_code error;
+    return std::filesystem::exists(programBeside(kInstalled), error) ? kInstalled : "./dev install-rules";
+}
+
+std::string permissionAdvice(std::string_view device, Login login, const std::string& command) {
     const auto chosen = device.empty() ? std::string() : fmt::format(" --device {}", device);
     if (login == Login::Seat) {
-        return fmt::format("run \"./dev install-rules{}\" once, then plug the device in again.", chosen);
+        return fmt::format("run \"{}{}\" once, then plug the device in again.", command, chosen);
     }
     return fmt::format(
-        "{}: run \"./dev install-rules{} --group plugdev\" once, add yourself to that group with "
+        "{}: run \"{}{} --group plugdev\" once, add yourself to that group with "
         "\"sudo usermod -aG plugdev $USER\", log in again, then plug the device in again.",
         login == Login::Ssh
             ? "this login is over ssh and has no seat, so a rule for the person at the computer does not "
               "help"
             : "this login shows no seat, so a rule for the person at the computer may not help",
-        chosen);
+        command, chosen);
 }
 
 }  // namespace tacto

@@ -20,8 +20,13 @@ enum class Login {
 /// Looks at XDG_SEAT, the display's variables and SSH_CONNECTION.
 [[nodiscard]] Login thisLogin();
 
+/// Returns what installs the udev rules: "tactoscope-install-rules" if that lies beside this program, as in a package,
+/// else "./dev install-rules".
+[[nodiscard]] std::string rulesCommand();
+
 /// Returns "run \"./dev install-rules\" once, then plug the device in again." `device` is "1234:5678" if the shipped
 /// rules may not name the device, else empty.
-[[nodiscard]] std::string permissionAdvice(std::string_view device = {}, Login login = thisLogin());
+[[nodiscard]] std::string permissionAdvice(std::string_view device = {}, Login login = thisLogin(),
+                                           const std::string& command = rulesCommand());
 
 }  // namespace tacto

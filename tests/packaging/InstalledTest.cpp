@@ -80,12 +80,24 @@ TEST_F(Installed, EveryProgramSaysItsVersionOrWhatItIs) {
 TEST_F(Installed, ProgramsAreStrippedAndCanBeLoadedAnywhere) {
     std::size_t programs = 0;
     for (const auto& each : fs::directory_iterator(root() / "bin")) {
+        if (each.path().filename() == "tactoscope-install-rules") continue;  // a script
         const auto header = outputOf("readelf --wide --file-header --sections '" + each.path().string() + "'").first;
         EXPECT_THAT(header, HasSubstr("DYN (Position-Independent Executable file)")) << each.path();
         EXPECT_THAT(header, testing::Not(HasSubstr(".symtab"))) << each.path();
         ++programs;
     }
     EXPECT_EQ(programs, 5U);
+}
+
+TEST_F(Installed, RulesForAnotherDeviceOrGroupComeFromThoseInstalled) {
+    const auto target = root().parent_path() / "rules";
+    const auto [said, code] =
+        run("tactoscope-install-rules", "--device 1234:ABCD --group plugdev '" + target.string() + "'");
+    EXPECT_EQ(code, 0) << said;
+    const auto shipped = text("lib/udev/rules.d/70-tactoscope.rules"), made = text(target / "70-tactoscope.rules");
+    EXPECT_EQ(std::regex_replace(made, std::regex(", GROUP=\"plugdev\", MODE=\"0660\""), ""), shipped);
+    EXPECT_THAT(text(target / "71-tactoscope-devices.rules"), HasSubstr("ATTR{idProduct}==\"abcd\""));
+    EXPECT_EQ(run("tactoscope-install-rules", "--seat 1").second, 2);
 }
 
 TEST_F(Installed, ADesktopAcceptsWhatItIsTold) {

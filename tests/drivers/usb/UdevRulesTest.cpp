@@ -119,6 +119,8 @@ TEST(Permission, OverSshTheSentenceSaysThatTheSeatsRuleDoesNotHelp) {
     EXPECT_EQ(permissionAdvice({}, Login::Seat), "run \"./dev install-rules\" once, then plug the device in again.");
     EXPECT_EQ(permissionAdvice("1234:5678", Login::Seat),
               "run \"./dev install-rules --device 1234:5678\" once, then plug the device in again.");
+    EXPECT_EQ(permissionAdvice("1234:5678", Login::Seat, "tactoscope-install-rules"),
+              "run \"tactoscope-install-rules --device 1234:5678\" once, then plug the device in again.");
     const auto ssh = permissionAdvice("1234:5678", Login::Ssh);
     for (const auto* part : {"over ssh", "no seat", "\"./dev install-rules --device 1234:5678 --group plugdev\"",
                              "usermod -aG plugdev", "log in again"}) {
