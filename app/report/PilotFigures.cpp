@@ -69,11 +69,12 @@ double quantileOf(const std::vector<double>& sorted, double q) {
     return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
-/// The detection trials of a session: levels and whether the answer was right.
+/// The detection trials of a session's last measurement: levels and whether the answer was right.
 std::vector<LevelAnswer> detectionOf(const BidsSession& session, bool massager) {
     std::vector<LevelAnswer> all;
     for (const auto& trial : session.thresholds) {
         const double level = massager ? trial.intensity : trial.current.value();
+        if (trial.measurement != session.measurements) continue;
         if (trial.procedure == "detection" && trial.correct && level > 0) all.push_back({level, *trial.correct});
     }
     return all;
@@ -442,9 +443,11 @@ Result<std::vector<PilotFigure>> sessionFigures(const StudyPerson& person, const
     const auto& detection = **found;
     const auto unit = massager ? QString() : QString(" mA");
     all.add("function", "psychometric function", functionFigure(detection, massager),
-            QString("Detection: %1 trials; threshold %2%3. A larger point is more trials.")
-                .arg(detection.answers.size())
-                .arg(intervalText(detection.course.threshold.back(), 2), unit));
+            QString("Detection: %1 trials%2; threshold %3%4. A larger point is more trials.")
+                .arg(QString::number(detection.answers.size()),
+                     session.measurements > 1 ? QString(" of the last of %1 measurements").arg(session.measurements)
+                                              : QString(),
+                     intervalText(detection.course.threshold.back(), 2), unit));
     all.add("trace", "detection, trial by trial", traceFigure(detection, massager),
             "The estimate is QUEST+’s after each answer.");
     return all.take();

@@ -33,8 +33,9 @@ struct BidsTrial {
 /// One presentation of a threshold procedure.
 struct BidsThresholdTrial {
     std::size_t number = 0;
-    std::string procedure{};  ///< "ascending", "detection", "range", "comparison" or "drift"
-    std::size_t series = 0;   ///< number of the ascending series, or of the block after a drift check; 0: none
+    std::size_t measurement = 1;  ///< of the range, from 1: it may be measured again
+    std::string procedure{};      ///< "ascending", "detection", "range", "comparison" or "drift"
+    std::size_t series = 0;       ///< number of the ascending series, or of the block after a drift check; 0: none
     /// "stimulus" or "catch"; with two intervals, the interval with the (stronger) train: "first" or "second"
     std::string type{};
     Milliamps current{kNaN};
@@ -93,6 +94,7 @@ struct BidsSession {
     std::vector<std::string> labels;            ///< the offered answers, in the order of the study
     std::vector<BidsTrial> trials;              ///< familiarisation, training and test, in the order of presentation
     std::vector<BidsThresholdTrial> thresholds;
+    std::size_t measurements = 1;  ///< of the range; detection, felt and range are of the last
     std::vector<BidsDrift> drift;
     std::vector<BidsRating> ratings;
     std::vector<BidsSideEffect> sideEffects;

@@ -168,6 +168,7 @@ BidsTable thresholdsTable(const BidsSession& session, bool massager) {
           {"range", "whether half an hour of this level would be borne"},
           {"comparison", "two intervals with a train in each, which of them was stronger"},
           {"drift", "detection again before a later block"}}},
+        {"measurement", "Which measurement of the range, from 1; thresholds in the table of sessions are of the last"},
         {"series", "Series of the ascending limits, or the block before which drift was checked"},
         {"trial_type",
          "What was presented",
@@ -186,7 +187,7 @@ BidsTable thresholdsTable(const BidsSession& session, bool massager) {
     columns.push_back({"response_time", "From the appearance of the targets to the answer", "s"});
     BidsTable table(std::move(columns));
     for (const auto& row : session.thresholds) {
-        std::vector<BidsCell> cells = {row.number, row.procedure,
+        std::vector<BidsCell> cells = {row.number, row.procedure, row.measurement,
                                        row.series > 0 ? BidsCell(row.series) : BidsCell(kNaN), row.type};
         if (!massager) cells.emplace_back(row.current);
         append(cells, {row.intensity, row.weaker, row.response, row.correct, row.response_s});

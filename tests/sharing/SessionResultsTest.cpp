@@ -105,6 +105,29 @@ TEST(SessionResults, ATooStrongThatWasTakenBackIsNoCeiling) {
     }
 }
 
+TEST(SessionResults, TrialsOfEachMeasurementOfTheRangeAreToldApart) {
+    RecordProperty("hazard", "H9");
+    const auto answered = [](const char* name, const char* said) {
+        return rowOf(row::kAnswer, name, {{"right", "first"}, {"current_ma", 2}, {"response", said}});
+    };
+    std::vector<SessionRow> rows{answered("detection 1", "first"),
+                                 rowOf(row::kEstimate, "detection", {{"estimate", {{"value", 2.5}}}}),
+                                 rowOf(row::kPhase, "measure again 1", {{"key", "yes"}}),
+                                 answered("detection 2", "second"),
+                                 answered("detection 3", "first"),
+                                 rowOf(row::kEstimate, "detection 2", {{"estimate", {{"value", 3.5}}}}),
+                                 rowOf(row::kPhase, "measure again 2", {{"key", "no"}})};
+    const auto found = sessionResults(rows, kLabels);
+    EXPECT_EQ(found.measurements, 2U);
+    EXPECT_EQ(found.detection, 3.5);
+    ASSERT_EQ(found.thresholds.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(found.thresholds[i].measurement, i == 0 ? 1U : 2U);
+    rows.push_back(rowOf(row::kPhase, "measure again 2", {{"key", "yes"}}));
+    const auto broken = sessionResults(rows, kLabels);
+    EXPECT_EQ(broken.measurements, 3U);
+    EXPECT_TRUE(std::isnan(broken.detection)) << "nothing was measured since";
+}
+
 TEST(SessionResults, ThresholdsKeepTheirProcedures) {
     const auto found = sessionResults(
         {rowOf(row::kAnswer, "ascending 1", {{"series", 1}, {"current_ma", 4}, {"response", "strong"}, {"rt_s", 1}}),

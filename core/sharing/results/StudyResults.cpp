@@ -154,7 +154,9 @@ std::vector<std::pair<SessionBasis, StudyRecord>> byBasis(const StudyRecord& stu
 }
 
 bool isOfElectrodes(const StudyLogField& field) noexcept {
-    return field.exported != nullptr && !std::string_view(field.key).starts_with("stimulator");
+    const std::string_view key = field.key;
+    return field.exported != nullptr && !key.starts_with("stimulator") && key != "medication" &&
+           key != "concurrent_task";
 }
 
 bool mayBeShared(const Participant& participant, bool hadSession) {
@@ -282,6 +284,7 @@ public:
         } else if (each.name == row::kPhase && name == row::meantName(calledTooStrong_) && saidIn(body) == "no") {
             out_.tooStrong = beforeTooStrong_;  // a slip, taken back
         } else if (each.name == row::kPhase && name.starts_with("measure again ") && saidIn(body) == "yes") {
+            ++out_.measurements;
             series_.clear();  // measured anew; what was too strong stays
             out_.detection = out_.detectionLow = out_.detectionHigh = detectionLevel_ = kNaN;
             beforeLevel_ = highestLevel_ = kNaN;
@@ -324,6 +327,7 @@ private:
         const auto [procedure, place] = lastWordOf(name);
         BidsThresholdTrial trial;
         trial.procedure = procedure;
+        trial.measurement = out_.measurements;
         trial.current = Milliamps(numberOr(body, "current_ma"));
         trial.intensity = numberOr(body, "intensity");
         trial.response = textOr(body, "response");
