@@ -6,6 +6,7 @@
 #include "app/report/PilotFigures.h"
 #include "app/report/Report.h"
 #include "app/report/StudyReport.h"
+#include "core/pilot/StudyWords.h"
 #include "core/study/StudyFiles.h"
 
 namespace tacto::cli {
@@ -23,9 +24,10 @@ void declareReport(QCommandLineParser& parser) {
     declarePassphrase(parser);
 }
 
-Result<ReportContent> contentFor(const QCommandLineParser& parser, const StudyRecord& record) {
+Result<ReportContent> contentFor(const QCommandLineParser& parser, const std::string& folder,
+                                 const StudyRecord& record) {
     if (parser.isSet("participant")) return participantReport(record, parser.value("participant").toStdString());
-    if (parser.value("for") == "committee") return committeeReport(record);
+    if (parser.value("for") == "committee") return committeeReport(record, languagesOf(folder));
     return studyReport(record);
 }
 
@@ -91,7 +93,7 @@ int reportStudy(const QCommandLineParser& parser, const std::string& folder) {
     if (figures) leaveOutUnfinished(*record);
     const auto drawn = figures ? pilotFigures(*record) : Result<std::vector<PilotFigure>>();
     if (!drawn) return couldNotRun(drawn.error());
-    const auto content = figures ? Result<ReportContent>() : contentFor(parser, *record);
+    const auto content = figures ? Result<ReportContent>() : contentFor(parser, folder, *record);
     if (!content) return couldNotRun(content.error());
     if (notes) {
         const auto noted = study->exported(place, what);

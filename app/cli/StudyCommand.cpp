@@ -7,10 +7,10 @@
 #include "app/cli/StudyPassphrase.h"
 #include "app/cli/Verdicts.h"
 #include "app/run/PilotRows.h"
-#include "app/run/StudyWords.h"
 #include "core/analysis/identification/IdentificationJson.h"
 #include "core/base/LocaleFreeText.h"
 #include "core/pilot/PilotRecord.h"
+#include "core/pilot/StudyWords.h"
 #include "core/sharing/results/StudyFigures.h"
 #include "core/study/Study.h"
 

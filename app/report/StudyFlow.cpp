@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "app/report/NumberText.h"
 #include "app/report/StudyText.h"
 #include "core/base/JsonText.h"
 #include "core/pilot/PilotRecord.h"
@@ -68,6 +69,44 @@ QString noRefusalText(const StudyRecord& study) {
                      : "every check on record held";
 }
 
+QString dayText(std::chrono::sys_seconds at) {
+    return shown(dateText(std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(at))));
+}
+
+/// Returns the days of the first and the last session.
+QString heldText(const StudyRecord& study) {
+    std::vector<std::chrono::sys_seconds> all;
+    for (const auto& participant : study.participants)
+        for (const auto& session : participant.sessions)
+            for (const auto& part : session.about.parts) all.push_back(part.begun);
+    if (all.empty()) return "none";
+    const auto [first, last] = std::ranges::minmax(all);
+    return QString("%1 to %2").arg(dayText(first), dayText(last));
+}
+
+/// Counts people by what may be told of them without telling who they are, as in an export.
+QString aboutText(const StudyRecord& study) {
+    std::vector<BidsAbout> people;
+    for (const auto& [about, basis, sessions] : study.participants)
+        if (basis != SessionBasis::Virtual && mayBeShared(about, !sessions.empty()))
+            people.push_back({about.age, about.sex, about.handedness});
+    if (people.empty()) return "no person had a session";
+    const auto shared = sharedAbout(std::move(people), {.age = true, .sex = true, .handedness = true});
+    std::map<QString, int> counts;
+    for (const auto& each : shared.people) {
+        QStringList said;
+        for (const auto& [told, text] : {std::pair{shared.columns.age, &each.age},
+                                         {shared.columns.sex, &each.sex},
+                                         {shared.columns.handedness, &each.handedness}})
+            if (told) said << (text->empty() ? QString("unknown") : shown(*text));
+        if (!said.isEmpty()) ++counts[said.join(", ")];
+    }
+    QStringList all;
+    for (const auto& [said, n] : counts) all << QString("%1: %2").arg(said).arg(n);
+    if (!shared.withheld.empty()) all << shown(shared.withheld);
+    return all.isEmpty() ? QString("unknown") : all.join("; ");
+}
+
 }  // namespace
 
 FactsBlock approvalFacts(const StudyRecord& study) {
@@ -87,9 +126,8 @@ FactsBlock approvalFacts(const StudyRecord& study) {
     for (const auto& amendment : study.amendments) {
         QStringList changed;
         for (const auto& key : amendment.changed) changed << shown(amendedWords(key, study.settings.modality));
-        const auto day = std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(amendment.at));
         amended << QString("%1 of %2: %3")
-                       .arg(shown(amendment.reference), shown(dateText(day)),
+                       .arg(shown(amendment.reference), dayText(amendment.at),
                             changed.isEmpty() ? QString("no setting") : changed.join(", "));
     }
     const bool massager = withMassager(study);
@@ -108,6 +146,8 @@ FactsBlock approvalFacts(const StudyRecord& study) {
         {"Consents", given.isEmpty() ? QString("none") : given.join("; ")},
         {"Participants",
          QString("%1 enrolled of at most %2").arg(shown(countsText(enrolled))).arg(study.settings.participantsMax)},
+        {"Age, sex, handedness of who had a session", aboutText(study)},
+        {"Sessions held", heldText(study)},
         massager ? ReportFact{"Highest strength permitted", "1, the whole of the massager's"}
                  : ReportFact{"Highest current permitted", QString("%1 mA").arg(study.settings.cap_mA)}};
     return block;
@@ -139,8 +179,7 @@ TableBlock notesTable(const StudyRecord& study, const StudyLogKind& kind, const 
     for (const auto& field : kind.fields) table.columns.push_back({field.label});
     for (const auto& note : study.notes) {
         if (note.kind != kind.key) continue;
-        const auto day = std::chrono::year_month_day(std::chrono::floor<std::chrono::days>(note.at));
-        QStringList row{shown(dateText(day))};
+        QStringList row{dayText(note.at)};
         for (const auto& field : kind.fields) row << shown(note.text(field.key));
         table.rows.push_back(std::move(row));
     }
@@ -209,7 +248,10 @@ TableBlock courseTable(const StudyRecord& study, ShownName name, const QString& 
                      {"Detection before a block over that before the test"},
                      {massager ? "Vibrations" : "Trains", true},
                      {"Stimulated (min)", true}};
-    if (!massager) table.columns.push_back({"Charge of leading phases (µC)", true});
+    if (!massager) {
+        table.columns.push_back({"Charge of leading phases (µC)", true});
+        table.columns.push_back({"Impedance at the start", true});
+    }
     for (const auto& participant : study.participants) {
         for (const auto& session : participant.sessions) {
             QStringList drift;
@@ -217,13 +259,14 @@ TableBlock courseTable(const StudyRecord& study, ShownName name, const QString& 
                 const double ratio = each.detection / session.results.detection;
                 drift << QString("block %1: %2%3")
                              .arg(each.block)
-                             .arg(std::isfinite(ratio) ? QString::number(ratio, 'f', 2) : QString("–"),
-                                  each.adapted ? ", adapted" : "");
+                             .arg(figureText(ratio, 2), each.adapted ? ", adapted" : "");
             }
             table.rows.push_back({rowName(shared, participant, name), QString::number(session.about.number),
                                   drift.isEmpty() ? "–" : drift.join("; "), QString::number(session.exposure.trains),
-                                  QString::number(session.exposure.stimulated_s / 60, 'f', 1)});
-            if (!massager) table.rows.back() << QString::number(session.exposure.charge_uC, 'f', 1);
+                                  figureText(session.exposure.stimulated_s / 60, 1)});
+            if (massager) continue;
+            table.rows.back() << figureText(session.exposure.charge_uC, 1)
+                              << quantityText(session.results.impedance.value(), "ohm");
         }
     }
     return table;
@@ -243,8 +286,7 @@ TableBlock careTable(const StudyRecord& study, const QString& caption) {
         for (const auto& session : participant.sessions) {
             const double most = highestLevel(session, massager ? "intensity" : "current_ma");
             table.rows.push_back({rowName(shared, participant), QString::number(session.about.number),
-                                  shown(std::string(nameOf(session.about.state))),
-                                  std::isfinite(most) ? QString::number(most, 'f', massager ? 2 : 1) : QString("–"),
+                                  shown(std::string(nameOf(session.about.state))), figureText(most, massager ? 2 : 1),
                                   QString::number(rowsOf(session, row::kTrialBegin)),
                                   QString::number(rowsOf(session, row::kParticipantStop)),
                                   QString::number(rowsOf(session, row::kOperatorStop)),

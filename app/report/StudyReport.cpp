@@ -168,6 +168,40 @@ void addNotes(std::vector<ReportBlock>& blocks, Captions& captions, const StudyR
     }
 }
 
+/// Returns where a text is read: "stop test, how" for "stop-test.how".
+QString placeOf(const std::string& key) { return qtext(key).replace('.', ", ").replace('-', ' '); }
+
+/// Adds every text of each approved language as it will be read; without approved words, of each that there is.
+void addWords(std::vector<ReportBlock>& blocks, Captions& captions, const StudyRecord& study,
+              const Result<std::vector<ParticipantWords>>& words) {
+    blocks.emplace_back(captions.heading("What participants read"));
+    if (!words) {
+        blocks.emplace_back(ParagraphBlock{qtext("It cannot be read: " + words.error().message + ".")});
+        return;
+    }
+    blocks.emplace_back(ParagraphBlock{
+        "Every text, in the order of a session. A word in braces is filled in: a code, a name, a number."});
+    auto approved = study.settings.words;
+    if (approved.empty()) {
+        blocks.emplace_back(ParagraphBlock{"The approval states no words; these are what there is now."});
+        for (const auto& each : *words) approved.push_back({each.code(), each.version(), each.sha256()});
+    }
+    for (const auto& each : approved) {
+        const auto found = std::ranges::find(*words, each.sha256, &ParticipantWords::sha256);
+        if (found == words->end()) {
+            blocks.emplace_back(
+                ParagraphBlock{QString("%1 is approved, and its file is not here or was changed: no session reads it.")
+                                   .arg(qtext(nameOf(each)))});
+            continue;
+        }
+        TableBlock table;
+        table.caption = captions.table(qtext(found->name()));
+        table.columns = {{"Where"}, {"Text"}};
+        for (const auto& [key, text] : found->all()) table.rows.push_back({placeOf(key), qtext(text)});
+        blocks.emplace_back(std::move(table));
+    }
+}
+
 /// Adds all results about the participants of one kind.
 Result<void> addResults(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasis basis,
                         const StudyRecord& study) {
@@ -248,7 +282,7 @@ Result<ReportContent> studyReport(const StudyRecord& study) {
     return content;
 }
 
-ReportContent committeeReport(const StudyRecord& study) {
+ReportContent committeeReport(const StudyRecord& study, const Result<std::vector<ParticipantWords>>& words) {
     const auto parts = byBasis(study);
     auto content = begun(study, basesOf(parts), qtext(study.settings.title),
                          "Report to the ethics committee  ·  names no participant");
@@ -262,6 +296,7 @@ ReportContent committeeReport(const StudyRecord& study) {
     }
     captions.setSimulated(false);
     addNotes(blocks, captions, study);
+    addWords(blocks, captions, study, words);
     blocks.emplace_back(SignaturesBlock{{"Principal investigator"}, {"Name", "Date", "Signature"}, {QString()}});
     sharePrefixes(blocks);
     return content;

@@ -11,6 +11,7 @@
 
 #include "app/report/ReportContent.h"
 #include "core/base/Result.h"
+#include "core/pilot/ParticipantWords.h"
 #include "core/sharing/results/StudyResults.h"
 
 namespace tacto {
@@ -19,8 +20,10 @@ namespace tacto {
 /// Errors: as identify().
 [[nodiscard]] Result<ReportContent> studyReport(const StudyRecord& study);
 
-/// Contains approval, consents, gates, stops, skin, adverse events and the flow of participants; no answers, no codes.
-[[nodiscard]] ReportContent committeeReport(const StudyRecord& study);
+/// Contains approval, consents, gates, stops, skin, adverse events, the flow of participants, and all that participants
+/// read in each approved language; no answers, no codes. `words`: those that there are now (StudyWords.h).
+[[nodiscard]] ReportContent committeeReport(const StudyRecord& study,
+                                            const Result<std::vector<ParticipantWords>>& words = {});
 
 /// Errors: NotFound for a code that is not in the study; as identify().
 [[nodiscard]] Result<ReportContent> participantReport(const StudyRecord& study, const std::string& code);

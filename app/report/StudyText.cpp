@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/QuantityText.h"
+
 namespace tacto {
 
 QString peopleHeading(SessionBasis basis) {
@@ -10,16 +12,12 @@ QString peopleHeading(SessionBasis basis) {
     return text.replace(0, 1, text.at(0).toUpper());
 }
 
-QString figureText(double value, int decimals) {
-    return std::isfinite(value) ? QString::number(value, 'f', decimals) : QString("–");
-}
+QString figureText(double value, int decimals) { return QString::fromStdString(decimalText(value, decimals)); }
 
 QString shareText(const Estimate& share) {
     if (!std::isfinite(share.value)) return "–";
     return QString("%1 % (%2 to %3)")
-        .arg(100 * share.value, 0, 'f', 0)
-        .arg(100 * share.low, 0, 'f', 0)
-        .arg(100 * share.high, 0, 'f', 0);
+        .arg(figureText(100 * share.value, 0), figureText(100 * share.low, 0), figureText(100 * share.high, 0));
 }
 
 }  // namespace tacto

@@ -8,10 +8,10 @@
 #include "app/run/EncodingTurn.h"
 #include "app/run/MachineGate.h"
 #include "app/run/StudyProgram.h"
-#include "app/run/StudyWords.h"
 #include "app/run/VirtualPerson.h"
 #include "core/base/Clock.h"
 #include "core/base/JsonText.h"
+#include "core/pilot/StudyWords.h"
 #include "core/session/SessionReader.h"
 #include "core/study/LedgerEnd.h"
 
@@ -202,6 +202,24 @@ Result<RunSession> PilotRun::makeSession(const SessionAbout& about, const Clock&
     return made;
 }
 
+namespace {
+
+/// Judges a virtual participant's checklist, which has the study's own questions too.
+Result<void> virtualChecklist(const RunOrder& order, const std::filesystem::path& folder) {
+    StudySettings settings;
+    if (Study::isThere(folder)) {
+        const auto study = Study::open(folder, nullptr, Study::Access::Read);
+        if (!study) return failure(study);
+        settings = study->settings();
+    }
+    const auto answers = virtualAnswers(order.settings.parameters, settings);
+    if (!answers) return failure(answers);
+    const bool isVirtual = textOf(order, "participant").starts_with(kVirtualPrefix);  // or known later, by a code
+    return isVirtual ? exclusionGate(*answers, settings) : Result<void>();
+}
+
+}  // namespace
+
 Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder pilot, Registry& registry,
                                                     std::shared_ptr<BenchTap> tap) {
     std::shared_ptr<MarkerServer> markers;
@@ -210,11 +228,7 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
         if (!listens) return failure(listens);
         markers = std::move(*listens);
     }
-    const auto answers = virtualAnswers(order.settings.parameters);
-    if (!answers) return failure(answers);
-    if (textOf(order, "participant").starts_with(kVirtualPrefix)) {  // checked before a rehearsal is made
-        if (auto held = exclusionGate(*answers); !held) return failure(held);
-    }
+    if (auto held = virtualChecklist(order, pilot.study); !held) return failure(held);  // before a rehearsal is made
     auto study = openStudyFor(order, pilot);
     if (!study) return failure(study);
     std::unique_ptr<PilotRun> made(new PilotRun(std::move(*study), std::move(markers)));

@@ -1,9 +1,11 @@
 #include "app/run/StudyProgram.h"
 
+#include <fmt/ranges.h>
+
 #include "app/run/Shipped.h"
-#include "app/run/StudyWords.h"
 #include "app/scripting/ShippedResources.h"
 #include "core/base/JsonText.h"
+#include "core/pilot/StudyWords.h"
 #include "core/session/Digest.h"
 
 namespace tacto {
@@ -53,6 +55,11 @@ Result<void> stateProgram(StudySettings& settings, const Profile& profile, const
     if (!words) return failure(words);
     settings.words.clear();
     for (const auto& each : *words) settings.words.push_back({each.code(), each.version(), each.sha256()});
+    if (profile.encoding.assignment == Assignment::Swapped && settings.encodings.size() > 1)
+        return invalid(
+            "encodings are {}, and the profile's assignment is swapped already, so that both would be the "
+            "same; one of them is accepted",
+            fmt::join(settings.encodings, " and "));
     auto fitted = profile;
     fitProfile(fitted, settings);
     if (auto possible = validate(fitted.encoding); !possible) return possible;  // a session would be refused

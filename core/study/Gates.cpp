@@ -18,7 +18,7 @@ constexpr std::pair<const char*, const char*> kExclusionItems[] = {
     {"bleeding", "Do you have a bleeding disorder, or take blood thinners?"},
     {"skin", "Is the skin at the site broken, inflamed or numb, or is there metal or swelling under it?"},
     {"alcohol", "Did you have alcohol or sedatives today?"},
-    {"allergy", "Did your skin ever react to electrode gel or adhesive?"},
+    {"allergy", "Did your skin ever react to gel or adhesive?"},
     {"age", "Are you under age?"},
     {"hf", "Is short-wave or surgical high-frequency equipment within 1 m?"},
 };

@@ -5,9 +5,10 @@
 // follow. A field that was left empty is *unknown*. Notes are sealed in the ledger under the study's key. Notes never
 // name a person.
 //
-// Sources: CONSORT 2010 extension for pilot trials (Eldridge 2016, items 2b, 4b, 4c, 6c, 7a, 13, 14, 23 to 25); RATES
-// (2023, the essential items on stimulator and electrodes); ISO 14155:2020 (device accountability, device
-// deficiencies, deviations); names of exported fields: BIDS, and the draft NIBS-BIDS (BEP037, electric stimulation).
+// Sources: CONSORT 2010 extension for pilot trials (Eldridge 2016, items 2, 4b, 4c, 6a, 6c, 7, 13, 14, 23 to 25); RATES
+// (2025, 10.1038/s41596-025-01259-0: participants, stimulator, electrodes, procedure); ISO 14155:2020 (device
+// accountability, device deficiencies, deviations); names of exported fields: BIDS, and the draft NIBS-BIDS (BEP037,
+// electric stimulation).
 //
 // Thread-safety: values; pure functions.
 #pragma once

@@ -6,6 +6,7 @@
 #include "core/base/LocaleFreeText.h"
 #include "core/base/TypedNumber.h"
 #include "core/session/Digest.h"
+#include "core/study/Gates.h"
 
 namespace tacto {
 
@@ -340,8 +341,20 @@ std::vector<ProcedureFact> approvedProcedure(const StudySettings& settings) {
                              ? fmt::format("{} of 10", *settings.painCeiling)
                              : fmt::format("not kept by this approval; sessions are held to {} of 10", kPainCeiling)});
     if (settings.ageMin) all.push_back({"Age", fmt::format("{} years or more", *settings.ageMin)});
-    if (!settings.exclusions.empty())
-        all.push_back({"Own exclusions", fmt::format("{}", fmt::join(settings.exclusions, " "))});
+    std::string asked;
+    for (const auto& item : exclusionItems(settings)) asked += (asked.empty() ? "" : " ") + item.question;
+    all.push_back({"Excluded who says yes", asked});
+    all.push_back({"Sessions", fmt::format("at most {} of each participant and of {:g} min, {:g} h or more apart",
+                                           settings.sessionsMax, settings.sessionMax_min, settings.gapMin_h)});
+    all.push_back({"Levels",
+                   "from zero by a step of the device, or by 5 % where that is more; none at or above what "
+                   "was too strong"});
+    all.push_back({"Orders", settings.encodings.size() > 1
+                                 ? "conditions drawn by the session’s seed before its first trial; encodings balanced "
+                                   "by enrolment, one a session"
+                                 : "conditions drawn by the session’s seed before its first trial"});
+    all.push_back(
+        {"Blind", settings.blind ? "the participant, and the operator until a session has ended" : "the participant"});
     return all;
 }
 

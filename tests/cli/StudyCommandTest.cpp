@@ -305,6 +305,33 @@ TEST_F(StudyCli, AProfileThatWasNotApprovedBeginsNoSessionUntilItIsAmended) {
     EXPECT_EQ(jsonOf(ran).at("results").at("detection").at("method"), "staircase") << "asked as approved";
 }
 
+TEST_F(StudyCli, TheBetterEncodingIsTakenAloneByAnAmendmentAndByNoProfileWithoutOne) {
+    RecordProperty("hazard", "H11");
+    ASSERT_EQ(create("2099-12-31", {"--set", "encodings=standard,swapped", "--set", "exclusions=A tattoo?"}).code, 0);
+    const auto code = jsonOf(study({"enrol", at(), "--virtual", "7"}))["code"].get<std::string>();
+    ASSERT_EQ(study({"consent", at(), code, "--version", "2", "--date", "2026-11-20", "--by", "KL"}).code, 0);
+    const auto run = [&](const Words& more) {
+        return desk.run(Words{"run", "pilot-thresholds", "--device", "sim:", "--out", at(), "--set",
+                              "participant=" + code, "--passphrase-file", passphrase, "--json"} +
+                        more);
+    };
+    // A virtual participant can say yes to the study's own questions too.
+    expectRefused(run({"--set", "exclusions=own-1"}), 4, {"an answer to the exclusion checklist is yes"});
+    expectRefused(run({"--set", "exclusions=own-2"}), 2, {"exclusions is \"own-2\"", "hf, own-1"});
+    const auto swapped = desk.write("swapped.json", R"({"encoding": {"assignment": "swapped"}})");
+    expectRefused(run({"--profile", swapped}), 4, {"assignment", "EC-17"});
+    expectRefused(study({"amend", at(), "--reference", "EC-18", "--profile", swapped}), 2,
+                  {"encodings are standard and swapped", "swapped already", "one of them is accepted"});
+    EXPECT_EQ(jsonOf(study({"show", at()}))["sessions"], Json::array());
+    const auto amended = study({"amend", at(), "--reference", "EC-18", "--set", "encodings=swapped"});
+    ASSERT_EQ(amended.code, 0) << amended.err;
+    EXPECT_EQ(jsonOf(amended)["changed"], Json::array({"encodings"}));
+    const auto ran = run({});
+    EXPECT_THAT(ran.code, testing::AnyOf(0, 5)) << ran.err;
+    const auto other = jsonOf(study({"amend", at(), "--reference", "EC-19", "--profile", swapped}));
+    EXPECT_EQ(other["changed"], Json::array({"procedure.conditions_sha256"})) << "another study takes it as a profile";
+}
+
 TEST_F(StudyCli, StrengthsAreComparedWhereTheApprovalIsForIt) {
     RecordProperty("hazard", "H11");
     ASSERT_EQ(create("2099-12-31", {"--set", "procedure.comparison=yes"}).code, 0);

@@ -109,7 +109,7 @@ TEST_F(StudyExport, AnAdverseEventIsCountedByEverybodyAndReadByTheCommittee) {
 TEST_F(StudyExport, WhatStandardsAskIsNotedAndReportedAndUnknownWhereItIsNot) {
     RecordProperty("hazard", "H11");
     const auto noted = desk_.run({"study", "note", study(), "particulars", "--set", "objectives=to find, the range",
-                                  "--set", "electrode_shape=ring", "--json"});
+                                  "--set", "electrode_shape=ring", "--set", "medication=none", "--json"});
     ASSERT_EQ(noted.code, 0) << noted.err;
     EXPECT_EQ(jsonOf(noted).at("said").at("electrode_shape"), "ring");
     expectRefused(desk_.run({"study", "note", study(), "particulars", "--set", "electrode_shape=star"}), 2,
@@ -130,6 +130,15 @@ TEST_F(StudyExport, WhatStandardsAskIsNotedAndReportedAndUnknownWhereItIsNot) {
         EXPECT_THAT(text, HasSubstr(said));
     ASSERT_EQ(desk_.run({"export", study(), "--format", "bids", "--out", at("bids")}).code, 0);
     EXPECT_THAT(readTextFile(at("bids") + "/README").value_or(""), HasSubstr("Objectives: to find, the range"));
+    for (const auto& entry : fs::recursive_directory_iterator(at("bids"))) {
+        if (!entry.path().string().ends_with("_beh.json")) continue;
+        const auto about = Json::parse(readTextFile(entry.path()).value_or("{}"));
+        EXPECT_EQ(about.at("Medication"), "none");
+        EXPECT_EQ(about.at("ConcurrentTask"), "unknown") << "as it was left";
+    }
+    const auto german = readTextFile(sourceDir() / "resources/words/de.json").value_or("{}");
+    for (const auto& [key, words] : Json::parse(german).at("words").items())
+        EXPECT_THAT(text, HasSubstr(words.get<std::string>())) << key;
 }
 
 TEST_F(StudyExport, TheDayAfterIsNotedOnALaterDayAlone) {

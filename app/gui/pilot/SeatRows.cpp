@@ -7,7 +7,7 @@
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
-#include "app/run/StudyWords.h"
+#include "core/pilot/StudyWords.h"
 
 namespace tacto::gui {
 

@@ -12,8 +12,8 @@
 #include "app/gui/pilot/SeatRows.h"
 #include "app/gui/theme/ScriptPlace.h"
 #include "app/gui/theme/Text.h"
-#include "app/run/StudyWords.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
+#include "core/pilot/StudyWords.h"
 
 namespace tacto::gui {
 

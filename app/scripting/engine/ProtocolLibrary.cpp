@@ -13,21 +13,12 @@
 #include "app/scripting/ShippedResources.h"
 #include "core/base/ProgramStart.h"
 
-#ifndef TACTOSCOPE_INSTALLED_RESOURCES
-#define TACTOSCOPE_INSTALLED_RESOURCES "/usr/share/tactoscope"
-#endif
-
 namespace tacto {
 
 namespace {
 
 namespace fs = std::filesystem;
 constexpr std::uintmax_t kLargestScript = 1'000'000;
-
-fs::path environmentPath(const char* name) {
-    const char* value = std::getenv(name);
-    return value == nullptr ? fs::path() : fs::path(value);
-}
 
 /// Returns the digest of the shipped protocol with this name, or null for any other name.
 const ShippedProtocol* digestOfShipped(std::string_view name) {
@@ -85,33 +76,6 @@ std::map<std::string, fs::path> scriptsIn(const fs::path& folder) {
 }
 
 }  // namespace
-
-Result<fs::path> resourcesFolder() {
-    std::vector<std::string> tried;
-    const auto usable = [&tried](const fs::path& folder) {
-        std::error_code failed;
-        if (!folder.empty()) tried.push_back(folder.string());
-        return !folder.empty() && fs::is_directory(folder / "protocols", failed);
-    };
-    if (const auto set = environmentPath("TACTOSCOPE_RESOURCES"); !set.empty()) {
-        // A folder that the user chose explicitly is not silently replaced.
-        if (usable(set)) return set;
-        return fail(ErrorCode::NotFound, "TACTOSCOPE_RESOURCES is {}, a folder with protocols/ is expected",
-                    set.string());
-    }
-    const fs::path start = programFolder();
-    if (usable(start / ".." / "share" / "tactoscope"))
-        return (start / ".." / "share" / "tactoscope").lexically_normal();
-    fs::path folder = start;
-    for (int up = 0; up < 5 && !folder.empty() && folder != folder.root_path(); ++up, folder = folder.parent_path()) {
-        if (usable(folder / "resources")) return folder / "resources";
-    }
-    if (usable(TACTOSCOPE_INSTALLED_RESOURCES)) return fs::path(TACTOSCOPE_INSTALLED_RESOURCES);
-    return fail(ErrorCode::NotFound,
-                "the program's resources were not found in {}; install it anew, or set TACTOSCOPE_RESOURCES to "
-                "their folder",
-                fmt::join(tried, ", "));
-}
 
 Result<fs::path> drawingFile(std::string_view name) {
     const auto resources = resourcesFolder();

@@ -13,13 +13,9 @@
 #include <vector>
 
 #include "app/scripting/engine/ProtocolDeclaration.h"
+#include "core/base/ResourcesFolder.h"
 
 namespace tacto {
-
-/// Returns the program's resources folder (protocols/, examples/, additional limit sets ...): $TACTOSCOPE_RESOURCES;
-/// else `resources` next to or above the executable (a build inside the source tree); else the installed share folder.
-/// Errors: NotFound naming the folders that were tried.
-[[nodiscard]] Result<std::filesystem::path> resourcesFolder();
 
 /// Returns the file of a shipped drawing ("wiring"). Errors: InvalidArgument naming the existing drawings.
 [[nodiscard]] Result<std::filesystem::path> drawingFile(std::string_view name);

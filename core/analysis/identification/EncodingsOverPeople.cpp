@@ -8,11 +8,20 @@
 
 #include "core/analysis/statistics/InformationTransfer.h"
 #include "core/analysis/statistics/UncertaintyBudget.h"
+#include "core/base/QuantityText.h"
 #include "core/base/Statistics.h"
 
 namespace tacto {
 
 namespace {
+
+/// Returns "+0.12", "-3"; zero has a plus.
+std::string signedText(double value, int decimals) {
+    const auto text = decimalText(value, decimals);
+    return std::isfinite(value) && text.front() != '-' ? '+' + text : text;
+}
+
+std::string pointsText(double share) { return signedText(100 * share, 0); }
 
 /// Variance of a proportion by its trials, with two right and two wrong answers added, so that it is never 0 (Agresti &
 /// Coull 1998).
@@ -186,25 +195,25 @@ std::vector<std::string> encodingSentences(const EncodingsOverPeople& found) {
     for (const auto& pair : found.pairs) {
         const auto n = pair.people.size();
         const auto mean =
-            fmt::format("{} minus {}: {:+.0f} percentage points", pair.a, pair.b, 100 * pair.accuracy.value);
+            fmt::format("{} minus {}: {} percentage points", pair.a, pair.b, pointsText(pair.accuracy.value));
         if (n == 1) {
             all.push_back(
                 fmt::format("Which of {} and {} is better is not decided: only one of the {} had both. {} "
-                            "(95 % of that person alone {:+.0f} to {:+.0f}).",
-                            pair.a, pair.b, found.who, mean, 100 * pair.people.front().accuracy.low,
-                            100 * pair.people.front().accuracy.high));
+                            "(95 % of that person alone {} to {}).",
+                            pair.a, pair.b, found.who, mean, pointsText(pair.people.front().accuracy.low),
+                            pointsText(pair.people.front().accuracy.high)));
             continue;
         }
         const auto better = betterOf(pair);
         auto text = better.empty() ? fmt::format("Which of {} and {} is better is not decided", pair.a, pair.b)
                                    : fmt::format("{} is better than {}", better, better == pair.a ? pair.b : pair.a);
         text += fmt::format(
-            ". {} within a person (mean of {} {}, 95 % interval {:+.0f} to {:+.0f}, t with {} degrees of freedom{}); "
+            ". {} within a person (mean of {} {}, 95 % interval {} to {}, t with {} degrees of freedom{}); "
             "{} did better with {}, {} with {}.",
-            mean, n, found.who, 100 * pair.accuracy.low, 100 * pair.accuracy.high, n - 1,
+            mean, n, found.who, pointsText(pair.accuracy.low), pointsText(pair.accuracy.high), n - 1,
             found.pairs.size() > 1 ? ", Bonferroni" : "", pair.aBetter, pair.a, pair.bBetter, pair.b);
-        text += fmt::format(" Information: {:+.2f} bit ({:+.2f} to {:+.2f}).", pair.bits.value, pair.bits.low,
-                            pair.bits.high);
+        text += fmt::format(" Information: {} bit ({} to {}).", signedText(pair.bits.value, 2),
+                            signedText(pair.bits.low, 2), signedText(pair.bits.high, 2));
         text += " The interval takes such differences to be normally distributed over people";
         if (std::isfinite(pair.exchangeP))
             text +=
@@ -222,8 +231,12 @@ std::vector<std::string> encodingSentences(const EncodingsOverPeople& found) {
 
 std::string assignmentSentence(const EncodingsOverPeople& found) {
     if (found.better == "swapped")
-        return "A profile takes it as \"assignment\": \"swapped\": pressure to amplitude, and texture to interval.";
-    if (found.better == "standard") return "It is the assignment of the profile with which the sessions were run.";
+        return "A profile takes it as \"assignment\": \"swapped\": pressure to amplitude, and texture to interval. "
+               "This "
+               "study takes it alone by an amendment of its \"encodings\".";
+    if (found.better == "standard")
+        return "It is the assignment of the profile with which the sessions were run. This study takes it alone by an "
+               "amendment of its \"encodings\".";
     return {};
 }
 

@@ -70,7 +70,8 @@ std::string chanceText(double p) {
 std::string bitsText(const Estimate& bits) {
     if (!std::isfinite(bits.value)) return "–";
     if (!std::isfinite(bits.low)) return decimalText(bits.value, 2);  // from an older version, without an interval
-    return fmt::format("{:.2f} ({:.2f} to {:.2f})", bits.value, bits.low, bits.high);
+    return fmt::format("{} ({} to {})", decimalText(bits.value, 2), decimalText(bits.low, 2),
+                       decimalText(bits.high, 2));
 }
 
 std::string precisionSentence(std::size_t n, double chance) {

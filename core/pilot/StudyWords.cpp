@@ -1,9 +1,9 @@
-#include "app/run/StudyWords.h"
+#include "core/pilot/StudyWords.h"
 
 #include <algorithm>
 #include <fmt/ranges.h>
 
-#include "app/scripting/engine/ProtocolLibrary.h"
+#include "core/base/ResourcesFolder.h"
 #include "core/study/Gates.h"
 
 namespace tacto {
