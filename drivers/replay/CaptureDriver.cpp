@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/devices/Device.h"
+#include "core/devices/ScopeRange.h"
 #include "core/measure/CaptureDescription.h"
 #include "drivers/replay/ReplayDrivers.h"
 
@@ -16,8 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr ScopeTraits kTraits{Hertz(1e9), 100'000'000, 32, Hertz(0)};
-
-bool within(double value, double low, double high) { return value >= low && value <= high; }
 
 /// Plays the captures of a folder one after the other. Arming makes the next file begin now; later files keep their
 /// distance in time, so that intervals stay as recorded and no file takes longer than it did. Settings are checked as
@@ -32,19 +31,7 @@ public:
     const ScopeTraits& traits() const noexcept override { return kTraits; }
 
     Result<void> configure(const ScopeSettings& s) override {
-        const auto refuse = [](const char* what, double value, const char* expected) -> Result<void> {
-            return fail(ErrorCode::InvalidArgument, "oscilloscope: {} is {}; {} was expected", what, value, expected);
-        };
-        if (!(s.sampleRate.value() > 0 && s.sampleRate <= kTraits.maxRate)) {
-            return refuse("sample rate", s.sampleRate.value(), "above 0 to 1 GHz");
-        }
-        if (s.samples < 1 || s.samples > kTraits.memoryDepth) {
-            return refuse("samples", static_cast<double>(s.samples), "1 to 100 million");
-        }
-        if (!within(s.preTrigger, 0, 1)) return refuse("pre-trigger", s.preTrigger, "0 to 1");
-        if (!std::isfinite(s.triggerLevel)) return refuse("trigger level", s.triggerLevel, "a finite level");
-        if (!(s.voltageRange.value() > 0)) return refuse("voltage range", s.voltageRange.value(), "above 0 V");
-        if (!(s.currentRange.value() > 0)) return refuse("current range", s.currentRange.value(), "above 0 mA");
+        if (auto checked = checkScopeRange(s, kTraits); !checked) return checked;
         settings_ = s;
         return {};
     }
@@ -74,7 +61,7 @@ private:
         const std::string_view unit = settings.triggerOnCurrent ? "A" : "V";
         const auto channel = std::ranges::find(capture.channels, unit, &CaptureChannel::unit);
         if (channel == capture.channels.end()) return std::numeric_limits<double>::quiet_NaN();
-        const double level = std::abs(settings.triggerLevel);
+        const double level = settings.triggerLevel;
         for (std::size_t i = 1; i < channel->samples.size(); ++i) {
             const auto before = std::abs(static_cast<double>(channel->samples[i - 1]));
             const auto after = std::abs(static_cast<double>(channel->samples[i]));

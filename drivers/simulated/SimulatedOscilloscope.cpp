@@ -5,6 +5,7 @@
 
 #include "core/base/Random.h"
 #include "core/base/Statistics.h"
+#include "core/devices/ScopeRange.h"
 
 namespace tacto::sim {
 
@@ -50,31 +51,7 @@ Result<void> SimulatedOscilloscope::answers(Instant now) const {
 
 Result<void> SimulatedOscilloscope::configure(const ScopeSettings& settings) {
     if (const auto reply = answers(world_->clock().now()); !reply) return reply;
-    const double rate = settings.sampleRate.value();
-    if (!(rate >= 100) || !(rate <= traits_.maxRate.value())) {
-        return fail(ErrorCode::InvalidArgument, "oscilloscope sample rate {} Hz: 100 to {} Hz", rate,
-                    traits_.maxRate.value());
-    }
-    if (settings.samples < 2 || settings.samples > traits_.memoryDepth) {
-        return fail(ErrorCode::InvalidArgument, "oscilloscope record of {} samples: 2 to {}", settings.samples,
-                    traits_.memoryDepth);
-    }
-    if (!(settings.preTrigger >= 0) || !(settings.preTrigger <= 1)) {
-        return fail(ErrorCode::InvalidArgument, "oscilloscope pre-trigger {}; 0 to 1 is accepted", settings.preTrigger);
-    }
-    const double volts = settings.voltageRange.value();
-    const double amps = settings.currentRange.value() * 1e-3;
-    if (!(volts > 0) || !(volts <= 1000)) {
-        return fail(ErrorCode::InvalidArgument, "oscilloscope voltage range {} V: above 0, at most 1000 V", volts);
-    }
-    if (!(amps > 0) || !(amps <= 1000)) {
-        return fail(ErrorCode::InvalidArgument, "oscilloscope current range {} A: above 0, at most 1000 A", amps);
-    }
-    const double range = settings.triggerOnCurrent ? amps : volts;
-    if (!(settings.triggerLevel > 0) || !(settings.triggerLevel <= range)) {
-        return fail(ErrorCode::InvalidArgument, "oscilloscope trigger level {} {}: above 0, at most the range of {}",
-                    settings.triggerLevel, settings.triggerOnCurrent ? "A" : "V", range);
-    }
+    if (auto checked = checkScopeRange(settings, traits_); !checked) return checked;
     wanted_ = settings;
     return {};
 }

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/devices/ScopeRange.h"
+
 namespace tacto::sigrok_driver {
 
 namespace {
@@ -52,24 +54,6 @@ Result<std::optional<Fraction>> scaleFor(double range_V, const ChannelAbilities&
 bool isMultiple(double of, double what) {
     const double times = of / what;
     return times >= 1 - 1e-9 && std::abs(times - std::round(times)) < 1e-6 * times;
-}
-
-Result<void> checkRange(const ScopeSettings& s, const ScopeTraits& traits) {
-    if (const double rate = s.sampleRate.value(); !(rate > 0) || !(rate <= traits.maxRate.value())) {
-        return invalid("oscilloscope sample rate {} Hz: above 0, at most {} Hz", rate, traits.maxRate.value());
-    }
-    if (s.samples < 2 || s.samples > traits.memoryDepth) {
-        return invalid("oscilloscope record of {} samples: 2 to {}", s.samples, traits.memoryDepth);
-    }
-    if (!(s.preTrigger >= 0) || !(s.preTrigger <= 1))
-        return invalid("oscilloscope pre-trigger {}; 0 to 1 is accepted", s.preTrigger);
-    if (const double volts = s.voltageRange.value(); !(volts > 0) || !(volts <= 10'000)) {
-        return invalid("oscilloscope voltage range {} V: above 0, at most 10000 V", volts);
-    }
-    if (const double amps = s.currentRange.value() * 1e-3; !(amps > 0) || !(amps <= 1000)) {
-        return invalid("oscilloscope current range {} A: above 0, at most 1000 A", amps);
-    }
-    return {};
 }
 
 /// Chooses the shortest screen that holds the record at a multiple of the record's rate.
@@ -186,7 +170,7 @@ ScopeTraits traitsOf(const Abilities& abilities, const Wiring& wiring) {
 
 Result<RecordPlan> planRecord(const ScopeSettings& settings, const Abilities& abilities, const Wiring& wiring) {
     const ScopeTraits traits = traitsOf(abilities, wiring);
-    if (const auto checked = checkRange(settings, traits); !checked) return failure(checked);
+    if (const auto checked = checkScopeRange(settings, traits); !checked) return failure(checked);
     RecordPlan plan;
     plan.settings = settings;
 
@@ -196,12 +180,6 @@ Result<RecordPlan> planRecord(const ScopeSettings& settings, const Abilities& ab
     }
     const auto& volts = abilities.channels[wiring.voltage];
     const double ampsRange_V = settings.currentRange.value() * 1e-3 * wiring.shunt.value();
-    const double range =
-        settings.triggerOnCurrent ? settings.currentRange.value() * 1e-3 : settings.voltageRange.value();
-    if (!(settings.triggerLevel > 0) || !(settings.triggerLevel <= range)) {
-        return invalid("oscilloscope trigger level {} {}: above 0, at most the range of {}", settings.triggerLevel,
-                       settings.triggerOnCurrent ? "A" : "V", range);
-    }
     plan.triggerLevel_V = settings.triggerLevel * (settings.triggerOnCurrent ? wiring.shunt.value() : 1);
     if (plan.triggerLevel_V < kSmallestLevel_V) {
         return invalid("oscilloscope trigger level {} V at the instrument: at least {} V", plan.triggerLevel_V,

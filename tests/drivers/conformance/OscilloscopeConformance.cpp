@@ -1,10 +1,12 @@
 #include "tests/drivers/conformance/OscilloscopeConformance.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "core/base/Random.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Refused.h"
 
@@ -61,6 +63,45 @@ TEST_P(OscilloscopeConformance, RefusesSettingsItCannotKeep) {
     refused("no voltage range", [](auto& s) { s.voltageRange = Volts(0); });
     refused("no current range", [](auto& s) { s.currentRange = Milliamps(-1); });
     EXPECT_IN_TIME(device().configure(usual()));
+}
+
+/// A value inside a range, or outside it: beside either end, far away, or no number.
+double drawn(Random& random, double low, double high, bool good) {
+    if (good) return std::clamp(low * std::pow(high / low, random.uniform()), low, high);
+    const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+    const double wrong[] = {0, -low, -high, nan, infinite, -infinite, std::nextafter(high, infinite) * (1 + 1e-12)};
+    return wrong[random.below(std::size(wrong))];
+}
+
+TEST_P(OscilloscopeConformance, RefusesTheSameSettingsAsEveryOther) {
+    RecordProperty("hazard", "H12");
+    Random random(53, "oscilloscope settings");
+    const auto& traits = device().traits();
+    for (int trial = 0; trial < 300; ++trial) {
+        auto s = usual();
+        const auto wrong = random.below(7);
+        const auto draw = [&](std::uint64_t which, double low, double high) {
+            return drawn(random, low, high, which != wrong);
+        };
+        if (wrong == 0 || trial % 2 == 0) s.sampleRate = Hertz(draw(0, 100, traits.maxRate.value()));
+        s.voltageRange = Volts(draw(1, 1e-3, 10'000));
+        s.currentRange = Milliamps(draw(2, 1e-3, 1e6));
+        s.triggerOnCurrent = random.below(2) == 0;
+        const double range = s.triggerOnCurrent ? s.currentRange.value() * 1e-3 : s.voltageRange.value();
+        if (range > 0 && range < 1e9) s.triggerLevel = draw(3, 1e-3 * range, range);
+        s.preTrigger = wrong == 4 ? std::array{-1e-9, 1.0000001, 2.0, double(NAN)}[random.below(4)] : random.uniform();
+        if (wrong == 5) s.samples = random.below(2) == 0 ? random.below(2) : traits.memoryDepth + 1 + random.below(9);
+        const auto done = device().configure(s);
+        if (wrong < 6) {
+            ASSERT_FALSE(done) << trial << " wrong: " << wrong;
+            EXPECT_EQ(done.error().code, ErrorCode::InvalidArgument) << done.error().message;
+            const char* named[] = {"sample rate",   "voltage range", "current range",
+                                   "trigger level", "pre-trigger",   "record of"};
+            EXPECT_NE(done.error().message.find(named[wrong]), std::string::npos) << done.error().message;
+        } else if (device().identity().simulated) {
+            EXPECT_TRUE(done) << done.error().message;
+        }
+    }
 }
 
 TEST_P(OscilloscopeConformance, HasNothingBeforeATrigger) {
