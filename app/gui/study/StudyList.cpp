@@ -95,7 +95,7 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
         judge();
     });
     column->addStretch();
-    column->addWidget(buildFoot());
+    foot_ = buildFoot();
     connect(&study_, &OpenStudy::changed, this, &StudyList::refresh);
     connect(sessions_, &StudySessions::resultWanted, this, [this](const QString& id) {
         say({});

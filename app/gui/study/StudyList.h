@@ -25,6 +25,8 @@ class StudyList final : public QWidget {
 public:
     /// `study` must outlive this.
     explicit StudyList(OpenStudy& study, QWidget* parent = nullptr);
+    /// The buttons about the whole study, which the page shows at its foot.
+    [[nodiscard]] QWidget* foot() const { return foot_; }
     /// Shows a sentence about a problem; empty for none.
     void say(const QString& what, bool trouble = true);
     /// Shows why no session can begin; shows nothing if one can.
@@ -56,6 +58,7 @@ private:
     ReportMaker reports_;
     QString code_;      ///< the chosen participant's code
     QString reported_;  ///< the participant whom the last report is about; empty for the whole study
+    QWidget* foot_ = nullptr;
     QLabel* title_;
     QLabel* facts_;
     QLabel* keys_;  ///< where the key file lies, and who should hold a copy

@@ -44,10 +44,14 @@ StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
     column->addWidget(pages_);
     pages_->addWidget(buildNone());
     pages_->addWidget(new_);
-    auto* list = new ScrollingPage(pages_);
+    auto* opened = new QWidget(pages_);
+    auto* around = columnIn(*opened, 0);
+    auto* list = new ScrollingPage(opened);
     list_ = new StudyList(study_, list->viewport());
     list->hold(list_);
-    pages_->addWidget(list);
+    around->addWidget(list, 1);
+    addPageFoot(*around, opened)->addWidget(list_->foot(), 1);
+    pages_->addWidget(opened);
     results_ = new StudyResults(study_, pages_);
     pages_->addWidget(results_);
     connect(results_, &StudyResults::backWanted, this, [this] { pages_->setCurrentIndex(kList); });
