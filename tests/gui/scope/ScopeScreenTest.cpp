@@ -263,6 +263,42 @@ TEST_F(Screen, CursorsReadEveryLaneInFlagsBeyondThePulse) {
     shot(screen, "flags-edge");
 }
 
+/// Up to eight lanes, cursors anywhere, screens of any size and text of any size.
+TEST_F(Screen, FlagsOfManyLanesStandApartAndWithinTheScreen) {
+    Random random(55, "flags of many lanes");
+    model.setTimeCursors(true);
+    for (int trial = 0; trial < 60; ++trial) {
+        gui::applyTextSize(trial % 20 == 19 ? 200 : 100);
+        screen.resize(900 + int(random.below(700)), 420 + int(random.below(500)));
+        const auto& view = model.viewport();
+        const double first = view.left_s + random.uniform() * view.width_s();
+        model.dragTimeCursor(0, first, 0);
+        model.dragTimeCursor(1,
+                             random.below(2) == 0 ? first + 1e-3 * random.uniform() * view.width_s()
+                                                  : view.left_s + random.uniform() * view.width_s(),
+                             0);
+        draw();
+        auto state = screen.overlay();
+        const auto row = state.flags.at(0).rows.at(0);
+        const auto lanes = 1 + random.below(8);
+        for (auto& flag : state.flags) flag.rows.assign(lanes, row);
+        const gui::ScopePlane plane(screen.xAxis, screen.yAxis);
+        const auto flags = gui::TimeFlags(plane, state).boxes();
+        ASSERT_EQ(flags.size(), 2U);
+        const double wide = flags[0].width() + flags[1].width(), high = flags[0].height() + flags[1].height();
+        if (wide + 10 > plane.area().width() && high + 60 > plane.area().height()) continue;  // there is no room
+        EXPECT_FALSE(flags[0].intersects(flags[1])) << trial << ' ' << lanes;
+        for (const auto& box : flags) {
+            EXPECT_GE(box.left(), plane.area().left() - 1) << trial;
+            EXPECT_LE(box.right(), plane.area().right() + 1) << trial << ' ' << lanes;
+            if (box.height() + 60 <= plane.area().height()) {
+                EXPECT_LE(box.bottom(), plane.area().bottom() + 1) << trial << ' ' << lanes;
+            }
+        }
+    }
+    gui::applyTextSize(100);
+}
+
 TEST_F(Screen, ALevelCursorDoesNotStrikeOutWhatIsReadBetweenTheTimeCursors) {
     model.fit();
     model.setTimeCursors(true);

@@ -51,6 +51,21 @@ QRectF atClearHeight(const QRectF& box, const QRectF& within, const std::vector<
     return best;
 }
 
+/// Moves two boxes that overlap apart within `room`: one below the other, or beside it where many rows need the height.
+void moveApart(QRectF& one, QRectF& other, const QRectF& room) {
+    if (!one.intersects(other)) return;
+    if (one.height() + kFlagPadding + other.height() <= room.height()) {
+        one.moveTop(std::clamp(one.top(), room.top(), room.bottom() - other.height() - kFlagPadding - one.height()));
+        other.moveTop(one.bottom() + kFlagPadding);
+        return;
+    }
+    auto& left = one.center().x() <= other.center().x() ? one : other;
+    auto& right = &left == &one ? other : one;
+    const double last = room.right() - left.width() - kFlagPadding - right.width();
+    left.moveLeft(std::max(room.left(), std::min(left.left(), last)));
+    right.moveLeft(left.right() + kFlagPadding);
+}
+
 }  // namespace
 
 QSizeF TimeFlags::sizeOf(const OverlayState::Flag& flag) const {
@@ -91,7 +106,7 @@ std::vector<QRectF> TimeFlags::boxes() const {
         boxes.push_back(box);
         drawn.push_back(boxes.back());
     }
-    if (boxes[0].intersects(boxes[1])) boxes[1].moveTop(boxes[0].bottom() + kFlagPadding);
+    moveApart(boxes[0], boxes[1], room);
     return boxes;
 }
 
