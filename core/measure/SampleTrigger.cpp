@@ -40,15 +40,10 @@ constexpr TriggerField kUpperField{"upper",
                                    1,
                                    "The upper threshold: a pulse that reaches it is whole and is passed over.",
                                    &SampleTrigger::upper};
-constexpr TriggerField kShortestField{"shortest",
-                                      "At least",
-                                      true,
-                                      0,
-                                      kMaxTriggerTime_s,
-                                      "The shortest pulse that triggers.",
-                                      &SampleTrigger::shortest_s};
+constexpr TriggerField kShortestField{
+    "shortest", "Shorter limit", true, 0, kMaxTriggerTime_s, "It is itself inside.", &SampleTrigger::shortest_s};
 constexpr TriggerField kLongestField{
-    "longest", "At most", true, 0, kMaxTriggerTime_s, "The longest pulse that triggers.", &SampleTrigger::longest_s};
+    "longest", "Longer limit", true, 0, kMaxTriggerTime_s, "It is itself inside.", &SampleTrigger::longest_s};
 
 /// A part of the record in which the signal exceeds a level, in samples.
 struct Excess {
@@ -91,6 +86,26 @@ void exceeding(const CaptureChannel& channel, double sign, double level, double 
     }
 }
 
+bool triggersOn(double width_s, const SampleTrigger& trigger) {
+    const bool least = width_s >= trigger.shortest_s, most = width_s <= trigger.longest_s;
+    switch (trigger.widths) {
+        case WidthRule::Inside:
+            return least && most;
+        case WidthRule::Outside:
+            return !least || !most;
+        case WidthRule::Less:
+            return most;
+        case WidthRule::Greater:
+            break;
+    }
+    return least;
+}
+
+CaptureChannel magnitudeOf(CaptureChannel channel) {
+    for (auto& x : channel.samples) x = std::abs(x);
+    return channel;
+}
+
 Capture partOf(const Capture& record, std::size_t first, std::size_t samples) {
     Capture part = record;
     const auto from = static_cast<std::ptrdiff_t>(first), to = static_cast<std::ptrdiff_t>(first + samples);
@@ -126,14 +141,15 @@ std::span<const TriggerKindInfo> triggerKinds() {
                         kEdges,
                         {kHysteresisField, kHoldOffField},
                         "The signal crosses the level, with its sign. Searched for in the samples by this program."},
-        TriggerKindInfo{TriggerKind::Width,
-                        "width",
-                        "Pulse width",
-                        "Level",
-                        kPolarities,
-                        {kShortestField, kLongestField, kHysteresisField, kHoldOffField},
-                        "A pulse ends whose width at the level lies within two limits. Searched for in the samples by "
-                        "this program."},
+        TriggerKindInfo{
+            TriggerKind::Width,
+            "width",
+            "Pulse width",
+            "Level",
+            kPolarities,
+            {kShortestField, kLongestField, kHysteresisField, kHoldOffField},
+            "A pulse ends whose width at the level is inside or outside two limits, or less or greater than "
+            "one. Searched for in the samples by this program."},
         TriggerKindInfo{TriggerKind::Runt,
                         "runt",
                         "Runt",
@@ -147,6 +163,12 @@ std::span<const TriggerKindInfo> triggerKinds() {
 
 const TriggerKindInfo& infoOf(TriggerKind kind) { return triggerKinds()[static_cast<std::size_t>(kind)]; }
 
+bool uses(const SampleTrigger& trigger, const TriggerField& field) {
+    if (trigger.kind != TriggerKind::Width) return true;
+    return !(field.value == &SampleTrigger::shortest_s && trigger.widths == WidthRule::Less) &&
+           !(field.value == &SampleTrigger::longest_s && trigger.widths == WidthRule::Greater);
+}
+
 Result<void> checkTrigger(const SampleTrigger& trigger, double fullScale, std::string_view unit) {
     const auto refused = [](std::string_view what, double value, double least, double most, std::string_view in) {
         return fail(ErrorCode::InvalidArgument, "{} {}: {} to {} is accepted", what, exactText(value, in),
@@ -156,6 +178,7 @@ Result<void> checkTrigger(const SampleTrigger& trigger, double fullScale, std::s
     if (!(std::abs(trigger.level) <= fullScale))
         return refused("trigger level", trigger.level, -fullScale, fullScale, unit);
     for (const auto& field : info.fields) {
+        if (!uses(trigger, field)) continue;
         const double value = trigger.*field.value, scale = field.isTime ? 1 : fullScale;
         if (!(value >= field.least * scale) || !(value <= field.most * scale))
             return refused(field.title, value, field.least * scale, field.most * scale, field.isTime ? "s" : unit);
@@ -164,8 +187,9 @@ Result<void> checkTrigger(const SampleTrigger& trigger, double fullScale, std::s
         return fail(ErrorCode::InvalidArgument, "{} {}: more than the first threshold of {} is accepted",
                     kUpperField.title, exactText(trigger.upper, unit), exactText(trigger.level, unit));
     }
-    if (trigger.kind == TriggerKind::Width && !(trigger.longest_s >= trigger.shortest_s)) {
-        return fail(ErrorCode::InvalidArgument, "{} {}: no less than the shortest pulse, {}, is accepted",
+    const bool bothLimits = trigger.widths == WidthRule::Inside || trigger.widths == WidthRule::Outside;
+    if (trigger.kind == TriggerKind::Width && bothLimits && !(trigger.longest_s >= trigger.shortest_s)) {
+        return fail(ErrorCode::InvalidArgument, "{} {}: no less than the shorter one, {}, is accepted",
                     kLongestField.title, exactText(trigger.longest_s, "s"), exactText(trigger.shortest_s, "s"));
     }
     return {};
@@ -173,7 +197,13 @@ Result<void> checkTrigger(const SampleTrigger& trigger, double fullScale, std::s
 
 std::vector<double> triggersIn(const CaptureChannel& channel, double rate_hz, const SampleTrigger& trigger) {
     std::vector<double> found;
-    if (!searched(trigger.kind) || !(rate_hz > 0)) return found;
+    if (!(rate_hz > 0)) return found;
+    if (!searched(trigger.kind)) {
+        SampleTrigger rising;
+        rising.kind = TriggerKind::Slope;
+        rising.level = trigger.level;
+        return triggersIn(magnitudeOf(channel), rate_hz, rising);
+    }
     for (const double sign : {1.0, -1.0}) {
         if (trigger.edge == (sign > 0 ? TriggerEdge::Falling : TriggerEdge::Rising)) continue;
         // A negative runt begins at the upper threshold and must not reach the lower one.
@@ -186,9 +216,8 @@ std::vector<double> triggersIn(const CaptureChannel& channel, double rate_hz, co
                 if (trigger.kind == TriggerKind::Slope) found.push_back(begin);
             },
             [&](const Excess& its) {
-                const double width_s = (its.end - its.begin) / rate_hz;
                 const bool wide =
-                    trigger.kind == TriggerKind::Width && width_s >= trigger.shortest_s && width_s <= trigger.longest_s;
+                    trigger.kind == TriggerKind::Width && triggersOn((its.end - its.begin) / rate_hz, trigger);
                 if (wide || (runt && its.peak < second && !its.clipped)) found.push_back(its.end);
             });
     }

@@ -26,19 +26,26 @@ namespace tacto {
 enum class TriggerKind {
     Magnitude,  ///< the oscilloscope's own trigger: |signal| rises through the level
     Slope,      ///< the signal crosses the level
-    Width,      ///< a pulse beyond the level ends, and its width lies within two limits
+    Width,      ///< a pulse beyond the level ends, and its width is one that triggers
     Runt        ///< a pulse beyond the first threshold ends without having reached the second
 };
 /// For pulses Rising means positive and Falling negative.
 enum class TriggerEdge { Rising, Falling, Either };
+/// Which widths trigger: those within both limits, beyond either, up to the longer, or from the shorter one on.
+enum class WidthRule { Inside, Outside, Less, Greater };
+inline constexpr Word<WidthRule> kWidthRules[] = {{"inside", WidthRule::Inside},
+                                                  {"outside", WidthRule::Outside},
+                                                  {"less", WidthRule::Less},
+                                                  {"greater", WidthRule::Greater}};
 
 struct SampleTrigger {
     TriggerKind kind = TriggerKind::Magnitude;
     TriggerEdge edge = TriggerEdge::Rising;
-    double level = 0.5;       ///< V or A; for a runt the lower threshold
-    double upper = 1;         ///< V or A; for a runt the upper threshold
-    double hysteresis = 0;    ///< V or A, 0 or more
-    double shortest_s = 0;    ///< width of a pulse, both limits included
+    double level = 0.5;     ///< V or A; for a runt the lower threshold
+    double upper = 1;       ///< V or A; for a runt the upper threshold
+    double hysteresis = 0;  ///< V or A, 0 or more
+    WidthRule widths = WidthRule::Inside;
+    double shortest_s = 0;    ///< width of a pulse; both limits are inside
     double longest_s = 1e-3;  ///< may be infinite
     double holdOff_s = 0;     ///< no trigger sooner than this after the last one
     bool operator==(const SampleTrigger&) const = default;
@@ -67,6 +74,8 @@ struct TriggerKindInfo {
 [[nodiscard]] std::span<const TriggerKindInfo> triggerKinds();
 [[nodiscard]] const TriggerKindInfo& infoOf(TriggerKind kind);
 
+/// False for a limit that the rule of widths does not ask for.
+[[nodiscard]] bool uses(const SampleTrigger& trigger, const TriggerField& field);
 /// True if the program searches for this trigger in the samples; false: it is the oscilloscope's own.
 [[nodiscard]] constexpr bool searched(TriggerKind kind) noexcept { return kind != TriggerKind::Magnitude; }
 
@@ -74,8 +83,8 @@ struct TriggerKindInfo {
 [[nodiscard]] Result<void> checkTrigger(const SampleTrigger& trigger, double fullScale, std::string_view unit);
 
 /// Returns where the record triggers, in samples from its first one, in ascending order; the hold-off is not applied.
-/// None for the oscilloscope's own trigger. A clipped sample counts as having reached every threshold: a clipped pulse
-/// is no runt.
+/// For the oscilloscope's own trigger: where the magnitude rises through the level. A clipped sample counts as having
+/// reached every threshold: a clipped pulse is no runt.
 [[nodiscard]] std::vector<double> triggersIn(const CaptureChannel& channel, double rate_hz,
                                              const SampleTrigger& trigger);
 

@@ -53,12 +53,22 @@ SampleTrigger drawnTrigger(Random& random) {
     its.kind = std::array{TriggerKind::Slope, TriggerKind::Width, TriggerKind::Runt}[random.below(3)];
     its.edge = std::array{TriggerEdge::Rising, TriggerEdge::Falling, TriggerEdge::Either}[random.below(3)];
     const auto level = [&] { return random.below(2) == 0 ? double(random.below(11)) - 5 : 10 * random.uniform() - 5; };
+    its.widths =
+        std::array{WidthRule::Inside, WidthRule::Outside, WidthRule::Less, WidthRule::Greater}[random.below(4)];
     its.level = level();
     its.upper = its.level + 0.1 + 5 * random.uniform();
     its.hysteresis = random.below(2) == 0 ? 0 : 3 * random.uniform();
     its.shortest_s = 8 * random.uniform() / kRate_hz;
     its.longest_s = random.below(4) == 0 ? INFINITY : its.shortest_s + 10 * random.uniform() / kRate_hz;
     return its;
+}
+
+bool accepted(double width_s, const SampleTrigger& trigger) {
+    const bool inside = trigger.shortest_s <= width_s && width_s <= trigger.longest_s;
+    return trigger.widths == WidthRule::Inside    ? inside
+           : trigger.widths == WidthRule::Outside ? !inside
+           : trigger.widths == WidthRule::Less    ? width_s <= trigger.longest_s
+                                                  : width_s >= trigger.shortest_s;
 }
 
 /// The definition, with a search of its own for each sample.
@@ -109,9 +119,7 @@ std::vector<double> byDefinition(const CaptureChannel& channel, const SampleTrig
             const double width_s = (last - begin) / kRate_hz;
             const double limit = channel.high;
             const bool clipped = channel.high > channel.low && peak >= limit;
-            const bool hit = trigger.kind == TriggerKind::Width
-                                 ? width_s >= trigger.shortest_s && width_s <= trigger.longest_s
-                                 : peak < other && !clipped;
+            const bool hit = trigger.kind == TriggerKind::Width ? accepted(width_s, trigger) : peak < other && !clipped;
             if (hit) found.push_back(last);
         }
     }
@@ -169,6 +177,18 @@ TEST(SampleTrigger, EachKindFindsItsOwnPulseOfABurst) {
     EXPECT_THAT(triggersIn(channel, kRate_hz, its), testing::ElementsAre(testing::DoubleNear(249.5, 1e-9)));
     its.shortest_s = its.longest_s = 50e-6;
     EXPECT_EQ(triggersIn(channel, kRate_hz, its).size(), 1U) << "both limits belong to the window";
+    const auto placesOf = [&](WidthRule rule) {
+        its.widths = rule;
+        std::vector<int> places;
+        for (const double at : triggersIn(channel, kRate_hz, its)) places.push_back(int(at));
+        return places;
+    };
+    EXPECT_EQ(placesOf(WidthRule::Outside), (std::vector{119}));
+    its.shortest_s = its.longest_s = 30e-6;
+    EXPECT_EQ(placesOf(WidthRule::Less), (std::vector{119}));
+    EXPECT_EQ(placesOf(WidthRule::Greater), (std::vector{249}));
+    its.kind = TriggerKind::Magnitude;
+    EXPECT_EQ(placesOf(WidthRule::Inside), (std::vector{99, 199, 399})) << "both signs";
     its.kind = TriggerKind::Runt;
     its.level = 2;
     its.upper = 8;

@@ -144,6 +144,8 @@ void ScopeWorkspace::addKeys() {
     onKey(Qt::Key_B, [this] { tools_->tool(ScopeTool::Box).toggle(); });
     onKey(Qt::Key_R, [this] { running() ? hold() : run(); });
     onKey(Qt::Key_D, [this] { emit driveWanted(); });
+    onKey(QKeySequence::FindNext, [this] { goToMatch(1); });
+    onKey(QKeySequence::FindPrevious, [this] { goToMatch(-1); });
     auto* save = onKey(QKeySequence::Save, [this] {
         if (model_.shown()) files_->askSavePicture();
     });
@@ -174,6 +176,8 @@ void ScopeWorkspace::connectPanels() {
         acquisition_->settingsChanged();
         say();
     });
+    connect(&controls_->acquisition(), &AcquisitionPanel::matchWanted, this, &ScopeWorkspace::goToMatch);
+    connect(&search_, &RecordSearch::said, this, [this](const QString& what) { tell(what, {}); });
     connect(view, &ViewPanel::mathOptionsChanged, this, [this] {
         pipe_.setMathOptions(controls_->view().mathOptions());
         pipe_.recalculate(model_.shown());
@@ -239,11 +243,13 @@ QSize ScopeWorkspace::minimumSizeHint() const {
 
 void ScopeWorkspace::hideEvent(QHideEvent* event) {
     QWidget::hideEvent(event);
+    acquisition_->setSeen(watched_);
     save();
 }
 
 void ScopeWorkspace::showEvent(QShowEvent* event) {
     QWidget::showEvent(event);
+    acquisition_->setSeen(true);
     benchChanged();
 }
 
@@ -302,7 +308,8 @@ ScopeSettings ScopeWorkspace::settings() const { return controls_->acquisition()
 
 void ScopeWorkspace::setWatched(bool watched) {
     watched_ = watched;
-    // Captures go on while another view watches. While the window is destroyed a dock reports that it is hidden.
+    acquisition_->setSeen(watched || isVisible());
+    // Triggered captures go on unseen. While the window is destroyed a dock reports that it is hidden.
     if (watched) benchChanged();
 }
 
@@ -409,9 +416,10 @@ void ScopeWorkspace::say() {
     status_->show(pipe_.opening() ? std::optional(pipe_.percentRead()) : std::nullopt, standing);
     const auto& shown = model_.shown();
     const bool ours = !shown || shown->source.isEmpty();
-    model_.setTrigger(
-        ours && !model_.roll() ? model_.channelIn(controls_->acquisition().triggersOnCurrent() ? "A" : "V") : QString(),
-        controls_->acquisition().trigger(), acquisition_->levelFollows());
+    model_.setTrigger((ours && !model_.roll()) || search_.marks()
+                          ? model_.channelIn(controls_->acquisition().triggersOnCurrent() ? "A" : "V")
+                          : QString(),
+                      controls_->acquisition().trigger(), acquisition_->levelFollows());
     model_.setPreTrigger(ours && running() && shown ? std::optional(acquisition_->requestedSettings().preTrigger)
                                                     : std::nullopt);
     tools_->tool(ScopeTool::Undo).setEnabled(model_.canUndo());
@@ -421,6 +429,13 @@ void ScopeWorkspace::sayCursors() {
     const auto& shown = model_.shown();
     const auto text = readoutText(model_.readout(), shown ? shown->capture->rate_hz : 0);
     screen_->setAccessibleDescription(text.isEmpty() ? screen_->whatsThis() : text);
+}
+
+/// A record that is searched must stay.
+void ScopeWorkspace::goToMatch(int step) {
+    if (running()) hold();
+    const auto& panel = controls_->acquisition();
+    search_.go(step, panel.trigger(), panel.triggersOnCurrent() ? "A" : "V");
 }
 
 /// In roll mode captures stand one after the other, so they are not averaged.

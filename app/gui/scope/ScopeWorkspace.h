@@ -10,6 +10,7 @@
 
 #include "app/gui/scope/measurements/Reading.h"
 #include "app/gui/scope/model/CapturePipe.h"
+#include "app/gui/scope/model/RecordSearch.h"
 #include "app/gui/scope/model/ScopeModel.h"
 #include "app/gui/scope/panels/ScopeAcquisition.h"
 
@@ -99,8 +100,8 @@ private:
     void layOut();
     void connectTools();
     /// Adds the keys, which work wherever the focus is in the window while this page is visible: R run or hold, A auto,
-    /// N normal, S single, T and L cursors, B box, D drive, Ctrl+S saves the picture, Ctrl+Z undoes a zoom. For the
-    /// keys of the screen see ScopeGestures.h.
+    /// N normal, S single, T and L cursors, B box, D drive, F3 and Shift+F3 matches of the trigger, Ctrl+S saves the
+    /// picture, Ctrl+Z undoes a zoom. For the keys of the screen see ScopeGestures.h.
     void addKeys();
     void connectModel();
     void connectPanels();
@@ -115,12 +116,14 @@ private:
     void restore();
     void say();
     void sayCursors();
+    void goToMatch(int step);
     void showSpectrum();
     void showState();
 
     BenchController& controller_;
     CapturePipe pipe_;
     ScopeModel model_;
+    RecordSearch search_{pipe_, model_};
     ChosenReadings readings_;
     std::unique_ptr<ScopeFiles> files_;
     int averages_ = 1;

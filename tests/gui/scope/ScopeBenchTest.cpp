@@ -247,6 +247,26 @@ TEST_F(Summary, AnUntriggeredRecordChangesNoNumber) {
     EXPECT_THAT(head(), HasSubstr("the run's latest train, not the one on the oscilloscope"));
 }
 
+TEST_F(Scope, TakesNoUntriggeredRecordsWhileNothingShowsThem) {
+    int untriggered = 0;
+    QObject::connect(&controller, &gui::BenchController::captured, &scope,
+                     [&](const std::shared_ptr<const Capture>& capture) { untriggered += capture->untriggered; });
+    openBench();
+    ASSERT_IN_TIME(comes([&] { return untriggered >= 2; }));
+    scope.hide();
+    letLive(200);  // one that was on its way
+    const int before = untriggered;
+    letLive(1500);
+    EXPECT_EQ(untriggered, before) << "nothing shows them";
+    EXPECT_TRUE(scope.running());
+    scope.setWatched(true);
+    ASSERT_IN_TIME(comes([&] { return untriggered >= before + 2; }));
+    scope.setWatched(false);
+    scope.show();
+    const int then = untriggered;
+    ASSERT_IN_TIME(comes([&] { return untriggered >= then + 2; }));
+}
+
 TEST_F(Scope, OthersAreFedThoughTheOscilloscopeIsNotVisible) {
     gui::MeasurementSummary summary;
     QObject::connect(&scope, &gui::ScopeWorkspace::captureShown, &summary, &gui::MeasurementSummary::take);

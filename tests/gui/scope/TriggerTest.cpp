@@ -121,6 +121,7 @@ TEST_F(Trigger, AnyTriggerIsThereAgainAtTheNextStart) {
         named<gui::QuantitySpin>(before, "Trigger level")->setValue(level);
         for (const auto& field : info.fields)
             typeField(before, field.key.data(), QString::number(std::round(100 * (2 + random.uniform())) / 100));
+        if (auto* rule = before.findChild<QComboBox*>("widths")) rule->setCurrentIndex(int(random.below(4)));
         if (auto* edge = before.findChild<QComboBox*>("edge")) edge->setCurrentIndex(int(random.below(3)));
         before.save(settings);
         gui::AcquisitionPanel next;
@@ -154,6 +155,81 @@ TEST_F(Trigger, APulseOfTheRightWidthTriggersAtItsEndAndAnotherDoesNot) {
     }
     EXPECT_EQ(scope.model().shown(), last);
     EXPECT_TRUE(scope.running());
+}
+
+TEST_F(Trigger, OnlyTheLimitsThatTheRuleOfWidthsUsesAreAskedFor) {
+    showTwoPulses();
+    chooseKind(scope, TriggerKind::Width);
+    auto* rule = panel().findChild<QComboBox*>("widths");
+    for (const auto& word : kWidthRules) {
+        rule->setCurrentIndex(rule->findData(QString::fromUtf8(word.text.data())));
+        EXPECT_EQ(panel().trigger().widths, word.value);
+        EXPECT_EQ(panel().findChild<QLineEdit*>("shortest")->isVisible(), word.value != WidthRule::Less);
+        EXPECT_EQ(panel().findChild<QLineEdit*>("longest")->isVisible(), word.value != WidthRule::Greater);
+    }
+    typeField(scope, "shortest", "nonsense");
+    rule->setCurrentIndex(rule->findData("less"));
+    typeField(scope, "longest", "3");
+    EXPECT_EQ(panel().trigger().longest_s, 3e-3) << "what is not asked for refuses nothing";
+}
+
+TEST_F(Trigger, AnOpenedFileIsSearchedFromMatchToMatch) {
+    RecordProperty("hazard", "H12");
+    Random random(51, "searched files");
+    for (int trial = 0; trial < 6; ++trial) {
+        Capture file;
+        file.rate_hz = 1e6;
+        file.start_s = 5 * random.uniform();
+        file.trigger_s = std::nan("");
+        file.channels.resize(1);
+        file.channels[0].name = "voltage";
+        file.channels[0].unit = "V";
+        std::vector<double> ends_s;  // where the pulses of 200 samples end, on the axis
+        const std::size_t pulses = 3 + random.below(4);
+        std::vector<float> samples(pulses * 3000, 0);
+        for (std::size_t i = 0; i < pulses; ++i) {
+            const bool wide = i == 0 || random.below(2) == 0;
+            const std::size_t from = 3000 * i + 100 + random.below(2000), width = wide ? 200 : 80;
+            std::fill_n(samples.begin() + std::ptrdiff_t(from), width, 10.0F);
+            if (wide) ends_s.push_back((double(from + width) - 0.5) * 1e-6);
+        }
+        file.channels[0].samples = samples;
+        scope.show(std::make_shared<const Capture>(file), "file.csv");
+        ASSERT_IN_TIME(
+            comes([&] { return scope.model().shown() && scope.model().shown()->capture->start_s == file.start_s; }));
+        chooseKind(scope, TriggerKind::Width);
+        typeLevel(scope, "5 V");
+        typeField(scope, "shortest", "0.1");
+        typeField(scope, "longest", "0.3");
+        const auto at = [&] { return scope.model().trigger().moment_s().value_or(-1); };
+        const auto press = [&](const char* name) { panel().findChild<QPushButton*>(name)->click(); };
+        scope.model().fit();
+        scope.model().fit();  // the whole record
+        for (std::size_t i = 0; i < ends_s.size(); ++i) {
+            press("nextMatch");
+            ASSERT_IN_TIME(comes([&] { return std::abs(at() - ends_s[i]) < 1e-9; })) << at() << ' ' << ends_s[i];
+            EXPECT_THAT(status(), HasSubstr("Match " + std::to_string(i + 1) + " of "));
+        }
+        press("nextMatch");
+        EXPECT_THAT(status(), HasSubstr("no further"));
+        EXPECT_NEAR(at(), ends_s.back(), 1e-9);
+        scope.model().setTimePerDivision(20e-6);
+        scope.model().setTimeCentre(ends_s.back());
+        for (std::size_t i = ends_s.size() - 1; i-- > 0;) {
+            press("previousMatch");
+            EXPECT_NEAR(at(), ends_s[i], 1e-9);
+            EXPECT_NEAR(scope.model().viewport().left_s + scope.model().viewport().width_s() / 2, ends_s[i], 1e-6);
+        }
+        draw();
+        EXPECT_TRUE(scope.screen().overlay().trigger->height) << "the level is drawn where it was found";
+        typeField(scope, "longest", "0.15");
+        press("nextMatch");
+        if (trial == 0) shot(scope, "trigger-match");
+        ASSERT_IN_TIME(comes([&] {
+            return status().find("Match 1 of ") != std::string::npos ||
+                   status().find("Nothing in") != std::string::npos;
+        }));
+    }
 }
 
 TEST_F(Trigger, ASingleFallingSlopeComesWithItsPreTriggerAndThenHolds) {
@@ -261,11 +337,23 @@ TEST_F(Trigger, WhatDecidesIsDrawnOnTheScreen) {
     its.kind = TriggerKind::Width;
     its.shortest_s = 100e-6;
     its.longest_s = 300e-6;
-    const auto began = drawn(its).began_s.value();
+    const auto began = drawn(its).began_s.at(0);
     EXPECT_DOUBLE_EQ(began.first, -300e-6);
     EXPECT_DOUBLE_EQ(began.second, -100e-6);
+    for (const auto rule : {WidthRule::Outside, WidthRule::Less, WidthRule::Greater}) {
+        its.widths = rule;
+        for (const double width_s : {50e-6, 200e-6, 400e-6}) {
+            const auto bars = drawn(its).began_s;
+            const bool inside = std::ranges::any_of(
+                bars, [&](const auto& bar) { return bar.first <= -width_s && -width_s <= bar.second; });
+            const bool triggers = rule == WidthRule::Outside ? width_s != 200e-6
+                                  : rule == WidthRule::Less  ? width_s < 300e-6
+                                                             : width_s > 100e-6;
+            EXPECT_EQ(inside, triggers) << int(rule) << ' ' << width_s;
+        }
+    }
     its.kind = TriggerKind::Magnitude;
-    EXPECT_FALSE(drawn(its).began_s || drawn(its).other || !drawn(its).hysteresis.empty());
+    EXPECT_FALSE(!drawn(its).began_s.empty() || drawn(its).other || !drawn(its).hysteresis.empty());
 }
 
 TEST_F(Trigger, EachKindLooksRight) {

@@ -140,6 +140,16 @@ void CapturePipe::tellRead(double part) {
         Qt::QueuedConnection);
 }
 
+void CapturePipe::search(const ShownPtr& shown, const SampleTrigger& trigger, const QString& unit,
+                         std::function<void(std::vector<double>)> then) {
+    const auto seek = [capture = shown->capture, trigger, unit = unit.toStdString()] {
+        const auto channel = std::ranges::find(capture->channels, unit, &CaptureChannel::unit);
+        if (channel == capture->channels.end()) return std::vector<double>();
+        return triggersIn(*channel, capture->rate_hz, trigger);
+    };
+    work_.start(this, seek, std::move(then));
+}
+
 void CapturePipe::recalculate(const ShownPtr& shown) {
     if (!shown) return;
     work_.start(

@@ -11,6 +11,7 @@
 #include <QString>
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stop_token>
@@ -56,6 +57,9 @@ public:
     void open(const QString& path);
     /// Stops reading the present file, and does not show it.
     void cancelOpen();
+    /// Searches a record for a trigger in its first channel in `unit`; `then` gets the places of triggersIn().
+    void search(const ShownPtr& shown, const SampleTrigger& trigger, const QString& unit,
+                std::function<void(std::vector<double>)> then);
     /// Calculates the math of a measured capture again with the present options.
     void recalculate(const ShownPtr& shown);
 

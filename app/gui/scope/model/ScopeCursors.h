@@ -90,7 +90,7 @@ public:
     [[nodiscard]] double level() const noexcept { return its_.level; }
     /// True if the level follows the commanded amplitude and cannot be dragged.
     [[nodiscard]] bool held() const noexcept { return held_; }
-    /// The moment to which the user dragged the trigger, in seconds on the axis.
+    /// The moment to which the user dragged the trigger, or where a search found it, in seconds on the axis.
     [[nodiscard]] const std::optional<double>& moment_s() const noexcept { return moment_s_; }
     /// The text shown during a drag.
     [[nodiscard]] const QString& text() const noexcept { return text_; }
@@ -104,6 +104,7 @@ public:
     bool dragLevel(bool other, double height, const LaneScale& scale, const QString& unit);
     bool dragMoment(double time_s, double length_s);
     void forgetMoment() { moment_s_.reset(); }
+    void setMoment(double time_s) { moment_s_ = time_s; }
     /// Ends a drag. Returns the fraction that the user chose.
     std::optional<double> drop(double length_s);
 

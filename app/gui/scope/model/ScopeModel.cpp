@@ -395,6 +395,11 @@ void ScopeModel::dragTriggerMoment(double time_s) {
     if (shown() && trigger_.dragMoment(time_s, shown()->length_s())) emit overlayChanged();
 }
 
+void ScopeModel::markTrigger(double time_s) {
+    trigger_.setMoment(time_s);
+    emit overlayChanged();
+}
+
 void ScopeModel::dropTrigger() {
     if (const auto chosen = trigger_.drop(shown() ? shown()->length_s() : 1)) emit preTriggerChosen(*chosen);
     emit overlayChanged();

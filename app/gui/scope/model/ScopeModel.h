@@ -124,6 +124,8 @@ public:
     void dragTriggerLevel(double height, bool other = false);  ///< see ScopeTrigger::dragLevel()
     void dragTriggerMoment(double time_s);
     void dropTrigger();
+    /// Shows the trigger at this time until another capture is shown.
+    void markTrigger(double time_s);
 
 signals:
     void tracesChanged();  ///< the lanes or their contents changed; viewChanged() follows

@@ -8,6 +8,7 @@
 #include <QSpinBox>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "app/gui/scope/model/Remembered.h"
 #include "app/gui/scope/model/Viewport.h"
@@ -88,6 +89,18 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
     form->addRow(tr("Trigger on"), source_);
     form->addRow(tr("Level"), level_);
     form->addRow(fields_);
+    auto* find = new QWidget(this);
+    auto* steps = rowIn(*find);
+    for (const auto& [text, name, tip, step] :
+         {std::tuple{tr("◂ Previous"), "previousMatch", tr("Shift+F3: the match of this trigger before this one."), -1},
+          std::tuple{tr("Next ▸"), "nextMatch",
+                     tr("F3: the next match of this trigger in the record that is shown, also in an opened file."),
+                     1}}) {
+        auto* button = pageButton(text, name, tip, find);
+        connect(button, &QPushButton::clicked, this, [this, step = step] { emit matchWanted(step); });
+        steps->addWidget(button);
+    }
+    form->addRow(tr("Find"), find);
     form->addRow(tr("Pre-trigger"), preTrigger_);
     form->addRow(tr("Record"), length_);
     form->addRow(tr("Rate"), rate_);
@@ -200,6 +213,15 @@ void AcquisitionPanel::showTrigger() {
                                      tr("Which edges or pulses trigger.")));
         fields.back().parameter.value = wordFor(info.edges, trigger_.edge);
     }
+    if (info.kind == TriggerKind::Width) {
+        fields.push_back(choiceField("widths", tr("Width"),
+                                     {{"inside", tr("inside two limits")},
+                                      {"outside", tr("outside two limits")},
+                                      {"less", tr("less than a limit")},
+                                      {"greater", tr("greater than a limit")}},
+                                     tr("Which pulses trigger.")));
+        fields.back().parameter.value = wordFor(kWidthRules, trigger_.widths);
+    }
     for (const auto& field : info.fields) {
         const double scale = scaleOf(field), most = field.isTime ? 1 : fullScale();
         fields.push_back(numberField(field.key.data(), tr(field.title.data()), unitOf(field),
@@ -207,12 +229,26 @@ void AcquisitionPanel::showTrigger() {
                                      trigger_.*field.value * scale, tr(field.tip.data())));
     }
     fields_->show(fields);
+    showUsed(trigger_);
     say();
 }
 
+/// Hides the limits that `its` does not use; they have their last valid values when they are shown again.
+void AcquisitionPanel::showUsed(const SampleTrigger& its) {
+    const QSignalBlocker quiet(fields_);
+    for (const auto& field : infoOf(its.kind).fields) {
+        const std::string name(field.key);
+        const bool used = uses(its, field);
+        if (!used) fields_->set(name, QString::number(trigger_.*field.value * scaleOf(field), 'g', 12));
+        fields_->setRowVisible(name, used);
+    }
+}
+
 bool AcquisitionPanel::takeTrigger() {
-    const auto read = fields_->read();
     auto next = trigger_;
+    next.widths = valueFor(kWidthRules, fields_->text("widths").toStdString()).value_or(next.widths);
+    showUsed(next);
+    const auto read = fields_->read();
     next.level = level_->value();
     const auto& info = infoOf(next.kind);
     for (const auto& field : info.fields)
@@ -260,6 +296,7 @@ void AcquisitionPanel::save(QSettings& settings) const {
     settings.setValue("trigger/preTrigger", preTrigger_->value());
     settings.setValue("trigger/kind", qtext(infoOf(trigger_.kind).key));
     settings.setValue("trigger/edge", static_cast<int>(trigger_.edge));
+    settings.setValue("trigger/widths", static_cast<int>(trigger_.widths));
     for (const auto& kind : triggerKinds())
         for (const auto& field : kind.fields) settings.setValue("trigger/" + qtext(field.key), trigger_.*field.value);
     settings.setValue("record/length", length_->currentData());
@@ -286,6 +323,8 @@ void AcquisitionPanel::restore(const QSettings& settings) {
     }
     if (const auto edge = rememberedNumber(settings, "trigger/edge", 0, 2))
         before.edge = static_cast<TriggerEdge>(std::lround(*edge));
+    if (const auto rule = rememberedNumber(settings, "trigger/widths", 0, 3))
+        before.widths = static_cast<WidthRule>(std::lround(*rule));
     trigger_.kind = before.kind;  // decides which levels are possible
     showTrigger();
     if (const auto level = rememberedNumber(settings, "trigger/level", level_->minimum(), level_->maximum())) {

@@ -47,6 +47,8 @@ public:
 
 signals:
     void changed();
+    /// Asks for the next (1) or the previous (-1) place in the shown record that matches the trigger.
+    void matchWanted(int step);
 
 private:
     QComboBox* combo(const QString& name, const QString& tip);
@@ -54,6 +56,7 @@ private:
     void sourceChanged();
     /// Shows the fields of the present kind of trigger.
     void showTrigger();
+    void showUsed(const SampleTrigger& its);
     /// Takes over the fields. Returns false if nothing changed, or if one is not valid: it then says why.
     bool takeTrigger();
     [[nodiscard]] const char* unit() const;  ///< of the level

@@ -47,6 +47,7 @@ ScopeAcquisition::ScopeAcquisition(BenchController& controller, AcquisitionPanel
     : controller_(controller), panel_(panel) {
     panel_.setLevelHeld(levelFollows());
     connect(&controller_, &BenchController::scopeStopped, this, &ScopeAcquisition::fail);
+    connect(&controller_, &QObject::destroyed, this, [this] { running_ = false; });
 }
 
 bool ScopeAcquisition::possible() const {
@@ -88,6 +89,10 @@ void ScopeAcquisition::hold() {
     running_ = false;
 }
 
+void ScopeAcquisition::setSeen(bool seen) {
+    if (std::exchange(seen_, seen) != seen && running_ && untriggeredAfter() != requestedWait_) request();
+}
+
 void ScopeAcquisition::settingsChanged() {
     panel_.setLevelHeld(levelFollows());
     if (running_) request();
@@ -105,12 +110,12 @@ void ScopeAcquisition::request() {
     emit requested();
 }
 
-/// In Auto (and Roll) there is a picture even without a trigger, and a trigger may hide where the oscilloscope's own
-/// does not see it. While trains come, waits long enough for the slowest
-/// ones: a late picture is better than a picture that jumps between triggered and untriggered.
+/// In Auto (and Roll) there is a picture, if anything shows it, even without a trigger, and a trigger may hide where
+/// the oscilloscope's own does not see it. While trains come, waits long enough for the slowest ones: a late picture is
+/// better than a picture that jumps between triggered and untriggered.
 std::optional<Seconds> ScopeAcquisition::untriggeredAfter() const {
     const bool wanted = freeRuns() || searched(panel_.trigger().kind);
-    if (!wanted || !controller_.open() || !controller_.open()->untriggered) return {};
+    if (!wanted || !seen_ || !controller_.open() || !controller_.open()->untriggered) return {};
     if (telemetry_.state != InterlockState::Delivering) return kFreeRunAfter;
     return kFreeRunIntervals * controller_.profile().encoding.intervalMax;
 }
@@ -180,11 +185,15 @@ QString ScopeAcquisition::triggerText() const {
         case TriggerKind::Slope:
             words = tr("on %1 through %2").arg(kind, text(its.level));
             break;
-        case TriggerKind::Width:
-            words = tr("on %1 %2 to %3 at %4")
-                        .arg(kind, quantityText(its.shortest_s, "s", 3), quantityText(its.longest_s, "s", 3),
-                             text(its.level));
+        case TriggerKind::Width: {
+            const auto shorter = quantityText(its.shortest_s, "s", 3), longer = quantityText(its.longest_s, "s", 3);
+            const auto widths = its.widths == WidthRule::Less      ? tr("up to %1").arg(longer)
+                                : its.widths == WidthRule::Greater ? tr("from %1 on").arg(shorter)
+                                : its.widths == WidthRule::Outside ? tr("outside %1 to %2").arg(shorter, longer)
+                                                                   : tr("%1 to %2").arg(shorter, longer);
+            words = tr("on %1 %2 at %3").arg(kind, widths, text(its.level));
             break;
+        }
         case TriggerKind::Runt:
             words = tr("on %1 beyond %2, not reaching %3").arg(kind, text(its.level), text(its.upper));
             break;

@@ -42,6 +42,8 @@ public:
     void wantAgain() { wanted_ = true; }
     /// Runs if wanted and if the captures are seen somewhere. Returns true if an earlier failure is over.
     bool benchChanged(bool seen);
+    /// Captures that show nothing but an untriggered signal are taken only while something shows them.
+    void setSeen(bool seen);
     void settingsChanged();
     void refresh(const Telemetry& telemetry);
     /// Notes a measured capture of the bench. False: it was taken before the user pressed Hold, and must not be shown.
@@ -76,6 +78,7 @@ private:
     ScopeMode mode_ = ScopeMode::Auto;
     bool wanted_ = true;  ///< runs as soon as a bench is open
     bool running_ = false;
+    bool seen_ = true;
     bool failed_ = false;  ///< the oscilloscope stopped by itself and waits until the user runs it again
     Telemetry telemetry_;
     ScopeSettings requested_;

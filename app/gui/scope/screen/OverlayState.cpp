@@ -120,7 +120,8 @@ void fillCursors(const ScopeModel& model, OverlayState& o) {
 
 void fillTrigger(const ScopeModel& model, OverlayState& o) {
     const auto& trigger = model.trigger();
-    if (model.shown() && !model.roll() && std::isfinite(model.shown()->capture->trigger_s)) {
+    const bool triggered = model.shown() && !model.roll() && std::isfinite(model.shown()->capture->trigger_s);
+    if (triggered || trigger.moment_s()) {
         o.trigger = OverlayState::Trigger{};
         o.trigger->moment_s = trigger.moment_s().value_or(0);
         o.trigger->colour = colours().quiet;
@@ -133,7 +134,13 @@ void fillTrigger(const ScopeModel& model, OverlayState& o) {
         if (its.kind == TriggerKind::Runt) o.trigger->other = scale.heightOf(its.upper);
         if (its.kind == TriggerKind::Width) {
             const double now_s = o.trigger->moment_s.value_or(0);
-            o.trigger->began_s = std::pair(now_s - its.longest_s, now_s - its.shortest_s);
+            const double shorter = now_s - its.shortest_s, longer = now_s - its.longest_s;
+            constexpr double kEver_s = 1e9;  // longer than any record
+            auto& began = o.trigger->began_s;
+            if (its.widths == WidthRule::Inside) began = {{longer, shorter}};
+            if (its.widths == WidthRule::Outside) began = {{now_s - kEver_s, longer}, {shorter, now_s}};
+            if (its.widths == WidthRule::Less) began = {{longer, now_s}};
+            if (its.widths == WidthRule::Greater) began = {{now_s - kEver_s, shorter}};
         }
         for (const double sign : {1.0, -1.0}) {
             if (!searched(its.kind) || !(its.hysteresis > 0)) break;

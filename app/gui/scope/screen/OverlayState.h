@@ -30,7 +30,7 @@ struct OverlayState {
         std::optional<double> moment_s;
         std::optional<double> other;                        ///< height of a runt's other threshold
         std::vector<std::pair<double, double>> hysteresis;  ///< heights between which the signal is not judged anew
-        std::optional<std::pair<double, double>> began_s;   ///< when a pulse that triggers now began
+        std::vector<std::pair<double, double>> began_s{};   ///< when a pulse that triggers now began
         QColor colour;
         bool held = false;  ///< the level follows the commanded amplitude and cannot be dragged
         QString text;       ///< the text shown during a drag

@@ -135,7 +135,8 @@ void ScopeOverlay::drawTrigger(QCPPainter& painter) const {
             plane_.drawLine(painter, QLineF(a.left(), at, a.right(), at), t.colour, Qt::DotLine);
         plane_.drawPennant(painter, triggerPennant(*t.other, kOtherWord), kOtherWord, t.colour, true);
     }
-    if (t.began_s && t.height) drawWidthWindow(painter);
+    if (t.height)
+        for (const auto& began : t.began_s) drawWidthWindow(painter, began);
     if (t.height) {
         const double at = plane_.y(*t.height);
         if (at >= a.top() && at <= a.bottom()) {
@@ -148,12 +149,12 @@ void ScopeOverlay::drawTrigger(QCPPainter& painter) const {
 }
 
 /// Draws at the trigger's level where a pulse that triggers began: a bar between two ends.
-void ScopeOverlay::drawWidthWindow(QCPPainter& painter) const {
+void ScopeOverlay::drawWidthWindow(QCPPainter& painter, const std::pair<double, double>& began_s) const {
     const auto& t = *state.trigger;
     const auto a = plane_.area();
     const double at = plane_.y(*t.height);
     if (at < a.top() || at > a.bottom()) return;
-    const double from = plane_.x(t.began_s->first), to = plane_.x(t.began_s->second);
+    const double from = plane_.x(began_s.first), to = plane_.x(began_s.second);
     if (to < a.left() || from > a.right()) return;
     const double left = std::max(from, a.left()), right = std::min(to, a.right());
     auto shade = t.colour;

@@ -39,7 +39,7 @@ private:
     void drawComing(QCPPainter& painter) const;
     void drawLevelCursors(QCPPainter& painter) const;
     void drawTrigger(QCPPainter& painter) const;
-    void drawWidthWindow(QCPPainter& painter) const;
+    void drawWidthWindow(QCPPainter& painter, const std::pair<double, double>& began_s) const;
     void drawMarks(QCPPainter& painter) const;
     void drawMoments(QCPPainter& painter) const;
     void drawHover(QCPPainter& painter) const;
