@@ -114,7 +114,7 @@ json streamJson(const ExportStream& stream) {
                 {"gaps", stream.gapCount},
                 {"simulated", stream.simulated},
                 {"channels", channels}};
-    if (stream.lost > 0) out["pieces_lost"] = stream.lost;
+    if (stream.lost > 0) out["lost"] = stream.lost;
     return out;
 }
 
@@ -240,6 +240,7 @@ Result<void> ExportSource::State::readStreams() {
         stream.declaredRate_hz = info.stream.rate_hz > 0 ? info.stream.rate_hz : 0;
         stream.simulated = fromSensor;
         if (auto looked = look(stream); !looked) return looked;
+        stream.lost = info.samples > stream.samples ? info.samples - stream.samples : 0;
         streams.push_back(std::move(stream));
     }
     return {};
@@ -316,7 +317,8 @@ Result<void> ExportSource::State::describe() {
     const auto& about = reader.about();
     const auto sentences = sessionMarks(reader);
     if (!sentences) return failure(sentences);
-    const auto labels = reader.labels();
+    auto labels = reader.labels();
+    if (!labels && damaged) labels = SessionLabels{};
     if (!labels) return failure(labels);
     auto limits = json::array(), devices = json::array(), described = json::array();
     for (const auto& set : about.limitSets) limits.push_back({{"id", set.id}, {"sha256", set.sha256}});
@@ -365,11 +367,13 @@ ExportSource::~ExportSource() = default;
 
 Result<ExportSource> ExportSource::open(const std::filesystem::path& session, std::shared_ptr<const RowSeal> seal,
                                         ExportWatch watch, std::string_view version) {
-    auto verified = verifySession(session);
+    auto verified = verifySession(session, watch.stopped);
     if (!verified) return failure(verified);
     if (verified->status == SessionStatus::NotASession)
         return fail(ErrorCode::Unsupported, "{}", verified->problems.front());
-    auto reader = SessionReader::open(session, std::move(seal));
+    const bool damaged = verified->status == SessionStatus::Damaged;
+    auto reader =
+        damaged ? SessionReader::openDamaged(session, std::move(seal)) : SessionReader::open(session, std::move(seal));
     if (!reader) return failure(reader);
     if (reader->locked())
         return fail(ErrorCode::Unsupported, "{} is sealed; it opens with the passphrase of its study",
@@ -379,7 +383,7 @@ Result<ExportSource> ExportSource::open(const std::filesystem::path& session, st
     state->name = session.stem().string();
     state->version = version;
     state->wallStart = wallAtZero(state->reader.about());
-    state->damaged = verified->status == SessionStatus::Damaged;
+    state->damaged = damaged;
     state->verified = std::move(*verified);
     if (auto on = state->goOn(); !on) return failure(on);
     if (auto read = state->readStreams(); !read) return failure(read);

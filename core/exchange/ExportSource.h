@@ -55,7 +55,7 @@ struct ExportStream {
     bool rising = true;             ///< whether every stamp is later than the one before
     std::uint64_t gapCount = 0;
     std::vector<TimeInterval> gaps;  ///< from the last stamp before to the first after; the first kMaxGaps of them
-    std::uint64_t lost = 0;          ///< pieces that damage made unreadable
+    std::uint64_t lost = 0;          ///< samples that damage made unreadable, as far as is known
     bool simulated = false;
 
     static constexpr std::size_t kMaxGaps = 100'000;

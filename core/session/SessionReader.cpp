@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "core/base/JsonText.h"
@@ -39,6 +40,7 @@ struct SessionReader::State {
     std::string head;
     Instant lastAt{0};
     bool closed = false;
+    bool damaged = false;  // opened to read what can be read
 
     [[nodiscard]] bool locked() const noexcept { return source.sealed() && seal == nullptr; }
     [[nodiscard]] Result<void> unlocked(std::string_view what) const {
@@ -60,17 +62,60 @@ struct SessionReader::State {
     /// Calls `visit(const SessionRow&)` for every row of a kind.
     template <class Visit>
     [[nodiscard]] Result<void> forEach(const char* kind, Visit visit) const {
-        auto rows = source.database().prepare("SELECT seq, t_ns, name, body FROM entries WHERE kind=? ORDER BY seq");
+        for (std::int64_t after = 0;;) {
+            auto read = forEachAfter(after, kind, visit);
+            if (read || !damaged || read.error().code != ErrorCode::ParseError) return read;
+            const auto next = readableAfter(after);
+            if (!next) return {};
+            after = *next;
+        }
+    }
+    /// The same for rows behind row `after`, which becomes the last that was read.
+    template <class Visit>
+    [[nodiscard]] Result<void> forEachAfter(std::int64_t& after, const char* kind, Visit& visit) const {
+        auto rows =
+            source.database().prepare("SELECT seq, t_ns, name, body FROM entries WHERE kind=? AND seq>? ORDER BY seq");
         if (!rows) return failure(rows);
         rows->bind(1, std::string_view(kind));
+        rows->bind(2, after);
         for (;;) {
             auto more = rows->step();
             if (!more) return failure(more);
             if (!*more) return {};
-            auto found = row(rows->integer(0), kind, Instant(rows->integer(1)), rows->text(2), rows->text(3));
+            after = rows->integer(0);
+            auto found = row(after, kind, Instant(rows->integer(1)), rows->text(2), rows->text(3));
+            if (!found && damaged) continue;
             if (!found) return failure(found);
             visit(std::move(*found));
         }
+    }
+    /// Finds the end of a damaged part behind row `after`: the least number behind which a row can be read. Returns
+    /// nothing if none can.
+    [[nodiscard]] std::optional<std::int64_t> readableAfter(std::int64_t after) const {
+        const auto readable = [&](std::int64_t from) -> std::optional<bool> {  // nothing: no rows are left
+            auto row =
+                source.database().prepare("SELECT t_ns, name, body FROM entries WHERE seq>? ORDER BY seq LIMIT 1");
+            if (!row) return false;
+            row->bind(1, from);
+            const auto there = row->step();
+            if (!there) return false;
+            return *there ? std::optional(true) : std::nullopt;
+        };
+        constexpr std::int64_t kMaxJump = std::int64_t{1} << 40;
+        std::int64_t damagedTo = after, jump = 1;
+        for (; jump <= kMaxJump; jump *= 2) {
+            const auto found = readable(after + jump);
+            if (!found) break;
+            if (*found) break;
+            damagedTo = after + jump;
+        }
+        if (jump > kMaxJump) return std::nullopt;
+        std::int64_t readableFrom = after + jump;
+        while (readableFrom - damagedTo > 1) {
+            const auto middle = std::midpoint(damagedTo, readableFrom);
+            (readable(middle).value_or(true) ? readableFrom : damagedTo) = middle;
+        }
+        return readableFrom;
     }
 
     [[nodiscard]] Result<std::vector<SessionRow>> rows(const char* kind) const {
@@ -83,6 +128,7 @@ struct SessionReader::State {
     [[nodiscard]] Result<void> forEachChunk(
         const SessionStreamInfo& info, const char* order,
         const std::function<bool(const ChunkHead&, const SampleBlock&)>& visit) const {
+        if (damaged) return forEachReadableChunk(info, visit);
         auto rows = source.database().prepare(
             fmt::format("SELECT e.seq, e.body, c.stamps, c.data FROM chunks c JOIN entries e ON e.seq = c.seq "
                         "WHERE c.stream=? ORDER BY c.idx {}",
@@ -101,6 +147,25 @@ struct SessionReader::State {
             if (!unpacked) return unpacked;
             if (!visit(*chunk, block)) return {};
         }
+    }
+
+    /// Reads the chunks of a damaged session by their rows, and leaves out those that are not what was recorded.
+    [[nodiscard]] Result<void> forEachReadableChunk(
+        const SessionStreamInfo& info, const std::function<bool(const ChunkHead&, const SampleBlock&)>& visit) const {
+        SampleBlock block;
+        bool going = true;
+        return forEach(kind::kChunk, [&](const SessionRow& row) {
+            const auto chunk = parseChunkHead(dumpJson(row.body));
+            if (!going || !chunk || chunk->stream != info.id) return;
+            auto data = source.database().prepare("SELECT stamps, data FROM chunks WHERE seq=?");
+            if (!data) return;
+            data->bind(1, row.seq);
+            if (const auto there = data->step(); !there || !*there) return;
+            const std::span<const std::byte> parts[] = {data->blob(0), data->blob(1)};
+            if (!source.sealed() && crc32(parts) != chunk->crc) return;
+            if (unpack(row.seq, *chunk, info.stream.columns.size(), parts[0], parts[1], block))
+                going = visit(*chunk, block);
+        });
     }
 
     [[nodiscard]] Result<ChunkHead> chunkHead(std::int64_t seq, std::string_view text) const {
@@ -158,10 +223,21 @@ SessionReader& SessionReader::operator=(SessionReader&&) noexcept = default;
 SessionReader::~SessionReader() = default;
 
 Result<SessionReader> SessionReader::open(const std::filesystem::path& path, std::shared_ptr<const RowSeal> seal) {
+    return open(path, std::move(seal), false);
+}
+
+Result<SessionReader> SessionReader::openDamaged(const std::filesystem::path& path,
+                                                 std::shared_ptr<const RowSeal> seal) {
+    return open(path, std::move(seal), true);
+}
+
+Result<SessionReader> SessionReader::open(const std::filesystem::path& path, std::shared_ptr<const RowSeal> seal,
+                                          bool damaged) {
     auto source = SessionSource::open(path);
     if (!source) return failure(source);
     auto state = std::make_unique<State>(std::move(*source), std::move(seal));
     state->path = path;
+    state->damaged = damaged;
     bool found = false;
     auto about = state->forEach(kind::kAbout, [&](const SessionRow& row) {
         if (!found) state->about = aboutFrom(row.body);
@@ -173,7 +249,10 @@ Result<SessionReader> SessionReader::open(const std::filesystem::path& path, std
     auto last = state->source.database().prepare(
         "SELECT hash, kind, t_ns, seq, name, body FROM entries WHERE kind<>'annotation' ORDER BY seq DESC LIMIT 1");
     if (!last) return failure(last);
-    if (auto row = last->step(); !row) return failure(row);
+    if (auto row = last->step(); !row) {
+        if (damaged) return SessionReader(std::move(state));
+        return failure(row);
+    }
     state->head = hexOf(last->blob(0));
     state->closed = last->text(1) == kind::kEnd;
     state->lastAt = Instant(last->integer(2));
@@ -310,7 +389,12 @@ Result<Capture> SessionReader::capture(std::int64_t seq) const {
     if (!*found) return fail(ErrorCode::NotFound, "row {} of the session is not a capture", seq);
     const auto row = state_->row(seq, kind::kCapture, Instant(rows->integer(2)), "", rows->text(0));
     if (!row) return failure(row);
-    if (!state_->source.sealed()) return unpackCapture(row->body, rows->blob(1));
+    if (!state_->source.sealed()) {
+        const std::span<const std::byte> parts[] = {rows->blob(1)};
+        if (state_->damaged && crc32(parts) != countOr(row->body, "crc32"))
+            return fail(ErrorCode::ParseError, "capture {} does not match its CRC-32", seq);
+        return unpackCapture(row->body, rows->blob(1));
+    }
     const auto opened = openedBulk(*state_->seal, seq, kind::kCapture, rows->blob(1));
     if (!opened) return failure(opened);
     return unpackCapture(row->body, *opened);
@@ -321,6 +405,14 @@ Result<std::vector<SessionStreamInfo>> SessionReader::streams() const {
     auto streams = state_->declared();
     if (!streams) return streams;
     for (auto& info : *streams) {
+        if (state_->damaged) {  // the number recorded, read or not, as far as is known
+            auto counted = state_->forEach(kind::kChunk, [&](const SessionRow& row) {
+                const auto head = parseChunkHead(dumpJson(row.body));
+                if (head && head->stream == info.id) info.samples = head->firstSample + head->samples;
+            });
+            if (!counted) return failure(counted);
+            continue;
+        }
         auto first = state_->forEachChunk(info, "ASC", [&](const ChunkHead&, const SampleBlock& block) {
             if (block.samples() > 0) info.first_s = block.t_s.front();
             return false;

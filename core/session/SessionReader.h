@@ -30,6 +30,10 @@ public:
     /// session that is too damaged to open, or that `seal` does not open; Io.
     [[nodiscard]] static Result<SessionReader> open(const std::filesystem::path& path,
                                                     std::shared_ptr<const RowSeal> seal = nullptr);
+    /// Opens a damaged session to read what can be read: rows that cannot are left out, samples that cannot are left
+    /// out too, and so are those that do not match their checksum. Errors: as open().
+    [[nodiscard]] static Result<SessionReader> openDamaged(const std::filesystem::path& path,
+                                                           std::shared_ptr<const RowSeal> seal = nullptr);
     SessionReader(SessionReader&&) noexcept;
     SessionReader& operator=(SessionReader&&) noexcept;
     ~SessionReader();
@@ -84,6 +88,8 @@ public:
 private:
     struct State;
     explicit SessionReader(std::unique_ptr<State> state);
+    [[nodiscard]] static Result<SessionReader> open(const std::filesystem::path& path,
+                                                    std::shared_ptr<const RowSeal> seal, bool damaged);
     std::unique_ptr<State> state_;
 };
 

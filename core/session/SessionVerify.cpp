@@ -41,8 +41,8 @@ struct StreamSeen {
 /// Checks the rows in one pass, in the order of writing.
 class Inspection {
 public:
-    Inspection(const Database& database, bool sealed, VerifyReport& report)
-        : database_(database), sealed_(sealed), report_(report) {}
+    Inspection(const Database& database, bool sealed, VerifyReport& report, const std::function<bool()>& stopped)
+        : database_(database), sealed_(sealed), report_(report), stopped_(stopped) {}
 
     [[nodiscard]] Result<void> run() {
         if (auto done = checkPages(); !done) return done;
@@ -108,6 +108,7 @@ private:
             auto more = rows->step();
             if (!more) return failure(more);
             if (!*more) break;
+            if (stopped_ && stopped_()) return fail(ErrorCode::Stopped, "cancelled");
             const Entry entry{rows->integer(0), rows->text(1), rows->integer(2),
                               rows->text(3),    rows->text(4), digestFrom(rows->blob(5))};
             if (entry.seq < expected || entry.seq > kLastSeq) {
@@ -302,6 +303,7 @@ private:
     const Database& database_;
     const bool sealed_;
     VerifyReport& report_;
+    const std::function<bool()>& stopped_;
     std::vector<StreamSeen> streams_;
     Digest head_{};  // hash of the recording's last row, without annotations
     int annotations_ = 0;
@@ -322,7 +324,7 @@ bool reportChanged(const VerifyReport& report) {
     return std::ranges::any_of(report.signatures, [](const auto& each) { return each.state == SignedReport::Changed; });
 }
 
-Result<VerifyReport> verifySession(const std::filesystem::path& path) {
+Result<VerifyReport> verifySession(const std::filesystem::path& path, const std::function<bool()>& stopped) {
     VerifyReport report;
     const auto source = SessionSource::open(path);
     if (!source) {
@@ -332,7 +334,7 @@ Result<VerifyReport> verifySession(const std::filesystem::path& path) {
         report.problems.push_back(error.message);
         return report;
     }
-    Inspection inspection(source->database(), source->sealed(), report);
+    Inspection inspection(source->database(), source->sealed(), report, stopped);
     if (auto done = inspection.run(); !done) {
         if (done.error().code != ErrorCode::ParseError) return failure(done);
         inspection.problem("the database is damaged: {}", done.error().message);

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,7 +41,9 @@ struct VerifyReport {
 /// True if a report was changed after it was signed, and not signed again.
 [[nodiscard]] bool reportChanged(const VerifyReport& report);
 
-/// Every readable file gets a report. Errors: NotFound; Io if the file cannot be read.
-[[nodiscard]] Result<VerifyReport> verifySession(const std::filesystem::path& path);
+/// Every readable file gets a report. `stopped` is asked at every row. Errors: NotFound; Io if the file cannot be read;
+/// Stopped.
+[[nodiscard]] Result<VerifyReport> verifySession(const std::filesystem::path& path,
+                                                 const std::function<bool()>& stopped = {});
 
 }  // namespace tacto
