@@ -1,0 +1,285 @@
+// Exports hold what was recorded, as programs that share nothing with this one read it; and an export is whole or not
+// there at all.
+#include <csignal>
+#include <fstream>
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <thread>
+
+#include "core/acquisition/Recording.h"
+#include "core/session/Chunk.h"
+#include "tests/exchange/ExportSupport.h"
+#include "tests/support/Trials.h"
+
+namespace tacto::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> formatNames() {
+    std::vector<std::string> names;
+    for (const auto* format : exportFormats()) names.emplace_back(format->name);
+    return names;
+}
+
+Result<ExportReport> exported(const fs::path& session, std::string_view format, const fs::path& out,
+                              const ExportWatch& watch = {}) {
+    return exportSession(session, *exportFormat(format), out, "0.0.0-test", watch);
+}
+
+std::string runPython(const std::string& python, const char* script, const fs::path& out, const fs::path& expected) {
+    const auto ran = outputOfShell("'" + python + "' '" + (sourceDir() / "tests/exchange" / script).string() + "' '" +
+                                   out.string() + "' '" + expected.string() + "'");
+    return ran.code == 0 ? "" : ran.text.empty() ? "ended by a signal" : ran.text;
+}
+
+class Exports : public testing::TestWithParam<std::string> {
+protected:
+    [[nodiscard]] fs::path out(const std::string& name = "out") const { return folder_.path() / name; }
+    /// The folder in which exports are made, and nothing else is.
+    [[nodiscard]] fs::path place() const {
+        fs::create_directories(folder_.path() / "place");
+        return folder_.path() / "place";
+    }
+    const ScratchDir folder_;
+};
+INSTANTIATE_TEST_SUITE_P(All, Exports, testing::ValuesIn(formatNames()), [](const auto& one) { return one.param; });
+
+TEST(CsvExport, HoldsWhatPythonReads) {
+    RecordProperty("hazard", "H9");
+    for (std::uint64_t seed = 1; seed <= trials<std::uint64_t>({.local = 4, .ci = 12, .campaign = 300}); ++seed) {
+        const ScratchDir folder;
+        const auto drawn = drawSession(folder.path(), seed);
+        const auto done = exported(drawn.path, "csv", folder.path() / "out");
+        ASSERT_TRUE(done) << done.error().message;
+        EXPECT_THAT(done->leftOut, testing::IsEmpty());
+        ASSERT_EQ(runPython("python3", "read_csv.py", folder.path() / "out", folder.path()), "") << "seed " << seed;
+    }
+}
+
+TEST(Hdf5Export, HoldsWhatH5pyAndXarrayRead) {
+    RecordProperty("hazard", "H9");
+    const auto python = pythonWith("hdf5", "h5py, xarray, h5netcdf", "h5py xarray h5netcdf");
+    if (!python) GTEST_SKIP() << kNoPackages;
+    for (std::uint64_t seed = 1; seed <= trials<std::uint64_t>({.local = 2, .ci = 6, .campaign = 100}); ++seed) {
+        const ScratchDir folder;
+        const auto drawn = drawSession(folder.path(), seed);
+        const auto done = exported(drawn.path, "hdf5", folder.path() / "out.h5");
+        ASSERT_TRUE(done) << done.error().message;
+        ASSERT_EQ(runPython(*python, "read_hdf5.py", folder.path() / "out.h5", folder.path()), "") << "seed " << seed;
+    }
+}
+
+TEST(CsvExport, OpensAsARecordingWithTheSamplesOfTheSession) {
+    const ScratchDir folder;
+    const auto path = folder.path() / "slide.tacto";
+    VirtualClock clock;
+    auto writer = SessionWriter::create(path, someAbout(), clock);
+    ASSERT_TRUE(writer);
+    const auto id = (*writer)->addStream(SessionStream{"accelerometer", "acceleration", "m/s2", {"x", "y"}, 2000});
+    ASSERT_TRUE(id);
+    const auto samples = ramp(0.25, 2000, 4000, 2);
+    ASSERT_TRUE((*writer)->append(*id, samples));
+    ASSERT_TRUE((*writer)->close());
+    ASSERT_TRUE(exported(path, "csv", folder.path() / "out"));
+    const auto recording = Recording::open(folder.path() / "out");
+    ASSERT_TRUE(recording) << recording.error().message;
+    const auto* stream = recording->find(StreamKind::Acceleration);
+    ASSERT_NE(stream, nullptr);
+    EXPECT_THAT(stream->samples.t_s, testing::Pointwise(testing::DoubleNear(kStampTolerance_s), samples.t_s));
+    EXPECT_EQ(stream->samples.values, samples.values);
+    EXPECT_EQ(stream->info.unit, StreamUnit::MetrePerSecondSquared);
+}
+
+TEST_P(Exports, AreTheSameBytesTwice) {
+    const auto drawn = drawSession(folder_.path(), 11);
+    const auto first = exported(drawn.path, GetParam(), out("a")), second = exported(drawn.path, GetParam(), out("b"));
+    ASSERT_TRUE(first && second) << (first ? second : first).error().message;
+    EXPECT_EQ(bytesBelow(out("a")), bytesBelow(out("b")));
+    ASSERT_EQ(first->files.size(), second->files.size());
+    for (std::size_t i = 0; i < first->files.size(); ++i) EXPECT_EQ(first->files[i].sha256, second->files[i].sha256);
+    const auto& file = first->files.front();
+    const auto where = fs::is_directory(out("a")) ? out("a") / file.path : out("a");
+    EXPECT_EQ(outputOfShell("sha256sum '" + where.string() + "'").text.substr(0, 64), file.sha256);
+}
+
+TEST_P(Exports, RefuseATakenNameAndLeaveItAsItIs) {
+    const auto drawn = drawSession(folder_.path(), 12);
+    fs::create_directory(out("folder"));
+    std::ofstream(out("file")) << "mine";
+    fs::create_symlink("nowhere", out("link"));
+    for (const char* taken : {"folder", "file", "link"}) {
+        const auto done = exported(drawn.path, GetParam(), out(taken));
+        ASSERT_FALSE(done) << taken;
+        EXPECT_EQ(done.error().code, ErrorCode::InvalidArgument);
+        EXPECT_THAT(done.error().message, HasSubstr("exists already"));
+    }
+    EXPECT_TRUE(fs::is_empty(out("folder")));
+    EXPECT_EQ(std::string(std::istreambuf_iterator<char>(std::ifstream(out("file")).rdbuf()), {}), "mine");
+    EXPECT_TRUE(fs::is_symlink(out("link")));
+}
+
+TEST_P(Exports, RefuseANameThatAppearsMeanwhile) {
+    const auto drawn = drawSession(folder_.path(), 13);
+    const auto target = place() / "out";
+    const auto done = exported(drawn.path, GetParam(), target, {.stopped = [&] {
+                                   fs::create_directories(target);
+                                   return false;
+                               }});
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().code, ErrorCode::InvalidArgument);
+    EXPECT_THAT(namesIn(place()), ElementsAre("out"));
+    EXPECT_TRUE(fs::is_empty(target));
+}
+
+TEST_P(Exports, LeaveNothingWhenCancelledAtAnyMoment) {
+    const auto drawn = drawSession(folder_.path(), 14);
+    int asked = 0;
+    double share = 0;
+    ASSERT_TRUE(exported(drawn.path, GetParam(), out(),
+                         {.stopped = [&] { return ++asked < 0; },
+                          .progress =
+                              [&](double now) {
+                                  EXPECT_GE(now, share);
+                                  share = now;
+                              }}));
+    EXPECT_EQ(share, 1);
+    std::mt19937 random(3);
+    for (int trial = 0; trial < trials<int>({.local = 20, .ci = 100, .campaign = 1000}); ++trial) {
+        int left = static_cast<int>(random() % static_cast<unsigned>(asked));
+        const auto done = exported(drawn.path, GetParam(), place() / "out", {.stopped = [&] { return --left < 0; }});
+        ASSERT_FALSE(done);
+        EXPECT_EQ(done.error().code, ErrorCode::Stopped);
+        ASSERT_THAT(namesIn(place()), ElementsAre());
+    }
+}
+
+TEST_P(Exports, LeaveNothingOnAFullDisk) {
+    const auto drawn = drawSession(folder_.path(), 15);
+    ASSERT_TRUE(exported(drawn.path, GetParam(), out()));
+    std::uintmax_t largest = 0;
+    if (fs::is_directory(out())) {
+        for (const auto& each : fs::recursive_directory_iterator(out()))
+            if (each.is_regular_file()) largest = std::max(largest, each.file_size());
+    } else {
+        largest = fs::file_size(out());
+    }
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    std::mt19937_64 random(4);
+    for (int trial = 0; trial < trials<int>({.local = 15, .ci = 60, .campaign = 500}); ++trial) {
+        auto now = before;
+        now.rlim_cur = random() % largest;
+        ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &now), 0);
+        const auto done = exported(drawn.path, GetParam(), place() / "out");
+        setrlimit(RLIMIT_FSIZE, &before);
+        ASSERT_FALSE(done) << now.rlim_cur << " of " << largest;
+        EXPECT_EQ(done.error().code, ErrorCode::Io);
+        EXPECT_THAT(done.error().message, HasSubstr("File too large"));
+        EXPECT_THAT(done.error().message, testing::Not(HasSubstr("/.")));
+        ASSERT_THAT(namesIn(place()), ElementsAre());
+    }
+    // The library of the format is as good as before.
+    const auto again = exported(drawn.path, GetParam(), place() / "out");
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(bytesBelow(place() / "out"), bytesBelow(out()));
+}
+
+TEST_P(Exports, LeaveNoTargetWhenKilled) {
+    const auto drawn = drawSession(folder_.path(), 16);
+    const auto begun = std::chrono::steady_clock::now();
+    ASSERT_TRUE(exported(drawn.path, GetParam(), out()));
+    const auto whole = std::chrono::steady_clock::now() - begun;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> share(0, 1.2);
+    int killed = 0;
+    for (int trial = 0; trial < trials<int>({.local = 10, .ci = 100, .campaign = 1000}); ++trial) {
+        const pid_t child = fork();
+        ASSERT_GE(child, 0);
+        if (child == 0) _exit(exported(drawn.path, GetParam(), place() / "out") ? 0 : 1);
+        std::this_thread::sleep_for(whole * share(random));
+        kill(child, SIGKILL);
+        int status = 0;
+        ASSERT_EQ(waitpid(child, &status, 0), child);
+        killed += WIFSIGNALED(status) ? 1 : 0;
+        if (fs::exists(place() / "out")) {
+            EXPECT_EQ(bytesBelow(place() / "out"), bytesBelow(out()));
+        }
+        for (const auto& name : namesIn(place())) {
+            if (name != "out") EXPECT_TRUE(name.starts_with(".out.") && name.size() == 11) << name;
+            fs::remove_all(place() / name);
+        }
+    }
+    EXPECT_GT(killed, 0);
+}
+
+TEST_P(Exports, SayWhatIsMissingOfADamagedSession) {
+    RecordProperty("hazard", "H8");
+    const auto drawn = drawSession(folder_.path(), 17);
+    forge(drawn.path,
+          "UPDATE chunks SET data=zeroblob(length(data)) WHERE seq=(SELECT max(seq) FROM chunks WHERE "
+          "stream=1); UPDATE entries SET body='{' WHERE kind='event' AND name LIKE 'armed%'");
+    const auto done = exported(drawn.path, GetParam(), out());
+    ASSERT_TRUE(done) << done.error().message;
+    EXPECT_TRUE(done->damaged);
+    EXPECT_THAT(done->marks, testing::Contains("damaged"));
+    EXPECT_THAT(done->problems, testing::Not(testing::IsEmpty()));
+    ASSERT_FALSE(done->streams.empty());
+    EXPECT_LT(done->streams[0].samples, drawn.expected["streams"][0]["samples"].get<std::uint64_t>());
+    EXPECT_EQ(done->streams[1].samples, drawn.expected["streams"][1]["samples"].get<std::uint64_t>());
+}
+
+TEST_P(Exports, MarkASessionThatWasNotClosed) {
+    RecordProperty("hazard", "H8");
+    const auto path = folder_.path() / "crashed.tacto";
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        VirtualClock clock;
+        auto writer = SessionWriter::create(path, someAbout(), clock);
+        const auto id = (*writer)->addStream(SessionStream{"force", "force", "N", {"force"}, 100});
+        const bool kept = (*writer)->append(*id, ramp(0, 100, 500, 1)) && (*writer)->flush();
+        _exit(kept ? 0 : 1);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_EQ(status, 0);
+    const auto done = exported(path, GetParam(), out());
+    ASSERT_TRUE(done) << done.error().message;
+    EXPECT_FALSE(done->damaged);
+    EXPECT_THAT(done->marks, testing::Contains("ended without closing"));
+    ASSERT_EQ(done->streams.size(), 1U);
+    EXPECT_EQ(done->streams[0].samples, 500U);
+}
+
+TEST(ExportTarget, HasAPrivateNameThatFits) {
+    const ScratchDir folder;
+    std::string longest;
+    while (longest.size() + 2 <= 254) longest += "é";
+    longest += "x";
+    auto target = ExportTarget::begin(folder.path() / longest, ExportTarget::Kind::Folder);
+    ASSERT_TRUE(target) << target.error().message;
+    EXPECT_LE(target->draft().filename().string().size(), 255U);
+    ASSERT_TRUE(target->publish());
+    EXPECT_THAT(namesIn(folder.path()), ElementsAre(longest));
+}
+
+TEST(ExportTarget, SaysWhyItCannotBeMade) {
+    const ScratchDir folder;
+    for (const char* nothing : {"", "/", ".", ".."}) {
+        const auto target = ExportTarget::begin(nothing, ExportTarget::Kind::Folder);
+        ASSERT_FALSE(target) << nothing;
+        EXPECT_EQ(target.error().code, ErrorCode::InvalidArgument);
+    }
+    const auto target = ExportTarget::begin(folder.path() / "none" / "out", ExportTarget::Kind::File);
+    ASSERT_FALSE(target);
+    EXPECT_EQ(target.error().code, ErrorCode::Io);
+    EXPECT_THAT(target.error().message, HasSubstr("none/out could not be written: No such file"));
+}
+
+}  // namespace
+}  // namespace tacto::test
