@@ -6,11 +6,10 @@
 #include "app/cli/CaptureOptions.h"
 #include "app/cli/Command.h"
 #include "app/cli/TextTable.h"
-#include "core/acquisition/Recording.h"
-#include "core/acquisition/RecordingDraft.h"
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
 #include "core/dsp/RoughnessAnalysis.h"
+#include "core/exchange/recordings/OpenRecording.h"
 
 namespace tacto::cli {
 
@@ -51,7 +50,7 @@ double expandedR(const RoughnessSettings& settings, const RoughnessSummary& summ
 
 /// Prints only a recording.json for the table on stdout; says on stderr what must still be filled in.
 int describeTable(const std::filesystem::path& table) {
-    const auto draft = draftRecording(table);
+    const auto draft = draftAnyRecording(table);
     if (!draft) return couldNotRun(draft.error());
     say("{}", lines(draft->json));
     say(stderr, "{} has no recording.json that names it; this one fits it.\n", table.string());
@@ -69,14 +68,16 @@ int runRoughness(const QCommandLineParser& parser) {
     }
     const auto path = onlyArgument(parser, "RECORDING");
     if (!path) return usage(fmt::format("roughness: {}", path.error().message));
+    const auto recording = openRecording(*path);
     std::error_code absent;
-    if (std::filesystem::is_regular_file(*path, absent) && std::filesystem::path(*path).extension() != ".json" &&
+    if (!recording && recording.error().code == ErrorCode::NotFound &&
+        std::filesystem::is_regular_file(*path, absent) && std::filesystem::path(*path).extension() != ".json" &&
         descriptionBeside(*path).empty())
         return describeTable(*path);
+    if (!recording) return couldNotRun(recording.error());
+    for (const auto& warning : recording->warnings) say(stderr, "{}\n", warning);
     const auto profile = profileOption(parser);
     if (!profile) return couldNotRun(profile.error());
-    const auto recording = Recording::open(*path);
-    if (!recording) return couldNotRun(recording.error());
     const auto out = parser.value("out").toStdString();
     if (!out.empty() && isOf(*recording, out)) {
         return usage(fmt::format("roughness: --out {} is a file of the recording itself; another is expected", out));

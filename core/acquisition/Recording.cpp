@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <system_error>
 
 #include "core/acquisition/RecordingTable.h"
 #include "core/acquisition/RecordingUnits.h"
+#include "core/acquisition/SignalStreams.h"
 #include "core/base/Csv.h"
 #include "core/base/RecordFields.h"
 
@@ -23,6 +25,7 @@ constexpr std::size_t kMaxEntries = 100'000;
 struct DescribedStream {
     StreamKind kind = StreamKind::Acceleration;
     std::string file;
+    std::optional<ColumnChoice> stream;
     std::optional<ColumnChoice> timeColumn;
     std::optional<std::string> timeUnit;
     std::optional<double> rate_hz;
@@ -40,7 +43,7 @@ constexpr Word<char> kDecimals[] = {{".", '.'}, {",", ','}};
 
 ValueKind<ColumnChoice> columnKind() {
     return codedKind<ColumnChoice>(
-        "a column's name in the header, or its number from 1,",
+        "a name as in the file, or its number from 1,",
         [](const Json& value) -> std::optional<ColumnChoice> {
             if (value.is_string()) return value.get<std::string>();
             if (!value.is_number_unsigned() || value.get<std::uint64_t>() == 0) return std::nullopt;
@@ -54,6 +57,7 @@ RecordFields<DescribedStream> streamFields() {
     RecordFields<S> all;
     all.word("kind", &S::kind, kStreamKinds).required = true;
     all.text("file", &S::file).required = true;
+    all.add("stream", &S::stream, columnKind());
     all.add("time_column", &S::timeColumn, columnKind());
     all.text("time_unit", &S::timeUnit);
     all.number("rate_hz", &S::rate_hz, {.low = 0, .high = 1e6, .openLow = true, .unit = "Hz"});
@@ -61,7 +65,7 @@ RecordFields<DescribedStream> streamFields() {
     all.word("decimal", &S::decimal, kDecimals);
     all.number("factor", &S::factor);
     all.list("columns", &S::columns, columnKind(), 1, 1024).required = true;
-    all.text("unit", &S::unit).required = true;
+    all.text("unit", &S::unit);
     all.passOverUnknownKeys();
     return all;
 }
@@ -119,9 +123,9 @@ void markFarCounts(SampleBlock& samples, std::size_t channels) {
 /// Reads the streams described in one JSON file. Every message begins with the file's name.
 class Description {
 public:
-    explicit Description(fs::path file) : file_(std::move(file)) {}
+    Description(fs::path file, const SignalReader& reader) : file_(std::move(file)), reader_(reader) {}
 
-    Result<Recording> read(const Json& root) const {
+    Result<Recording> read(const Json& root) {
         auto read = builtOnce<buildRecordingFields>().read(root, {.file = file_.string()}).map_error(asParseError);
         if (!read) return failure(read);
         Recording& recording = *read;
@@ -138,7 +142,31 @@ public:
             recording.streams.push_back(std::move(*stream));
         }
         if (const auto done = checkDeclared(recording); !done) return failure(done);
+        // A file that says that it is simulated is, whatever is said of it.
+        if (signals_.simulated.value_or(false)) recording.simulated = true;
+        recording.warnings = std::move(signals_.warnings);
         return std::move(recording);
+    }
+
+    /// Opens a file of signals whose channels say themselves what they are.
+    Result<Recording> readOwn(SignalFile file, const std::vector<SignalChoice>& choices) {
+        Recording recording;
+        recording.title = file_.stem().string();
+        recording.path = file_;
+        recording.simulated = file.simulated;
+        for (const auto& choice : choices) {
+            auto chosen = chooseSignals(file, choice);
+            if (!chosen) return refuse("{}", chosen.error().message);
+            dropEmptySamples(chosen->samples, choice.columns.size());
+            if (chosen->samples.samples() < 2) continue;
+            if (recording.fingertip.empty()) recording.fingertip = chosen->serial;
+            auto stream = examined(streamOf(std::move(*chosen), choice, file_));
+            if (!stream) return failure(stream);
+            recording.streams.push_back(std::move(*stream));
+        }
+        if (recording.streams.empty()) return refuse("no sensor stream in it has 2 samples or more");
+        for (const auto& warning : file.warnings) recording.warnings.push_back(file_.string() + ": " + warning);
+        return recording;
     }
 
 private:
@@ -168,8 +196,9 @@ private:
 
     Result<RecordedUnit> unitOf(const DescribedStream& stream, std::size_t index) const {
         if (const auto unit = recordedUnit(stream.kind, stream.unit)) return *unit;
-        return refuse("streams[{}]: \"unit\" is \"{}\"; for {} one of {} was expected", index, stream.unit,
-                      nameOf(stream.kind), fmt::join(unitsOf(stream.kind), ", "));
+        return refuse("streams[{}]: \"unit\" is {}; for {} one of {} was expected", index,
+                      stream.unit.empty() ? std::string("missing") : "\"" + stream.unit + "\"", nameOf(stream.kind),
+                      fmt::join(unitsOf(stream.kind), ", "));
     }
 
     /// Returns the divisor from the file's time to seconds; 1 without a time column.
@@ -224,16 +253,62 @@ private:
         return path;
     }
 
-    Result<RecordedStream> readStream(const DescribedStream& described, std::size_t index) const {
-        const auto unit = unitOf(described, index);
-        if (!unit) return failure(unit);
-        const auto perSecond = perSecondOf(described, index);
-        if (!perSecond) return failure(perSecond);
+    /// Reads a file of signals once for all streams that it has; nothing if it is none.
+    Result<const SignalFile*> signalsOf(const fs::path& path) {
+        const auto known = read_.find(path.string());
+        if (known != read_.end()) return known->second ? &*known->second : nullptr;
+        auto file = reader_ ? reader_(path) : Result<std::optional<SignalFile>>(std::nullopt);
+        if (!file) return failure(file);
+        if (*file) {
+            if ((*file)->simulated.value_or(false)) signals_.simulated = true;
+            for (const auto& warning : (*file)->warnings) signals_.warnings.push_back(path.string() + ": " + warning);
+        }
+        const auto& kept = read_[path.string()] = std::move(*file);
+        return kept ? &*kept : nullptr;
+    }
+
+    static RecordedStream streamOf(ChosenSignals chosen, const SignalChoice& choice, const fs::path& path) {
+        auto name = path.filename().string();
+        if (!chosen.name.empty()) name += ": " + chosen.name;
+        RecordedStream stream{{choice.kind, chosen.unit, choice.columns.size(), 0, std::move(name)}, {}, {}, path};
+        stream.samples = std::move(chosen.samples);
+        stream.stamped = true;
+        return stream;
+    }
+
+    Result<RecordedStream> readSignals(const DescribedStream& described, std::size_t index, const SignalFile& file,
+                                       const fs::path& path) const {
+        if (described.timeColumn || described.rate_hz || described.skipRows != 0 || described.decimal)
+            return refuse(
+                "streams[{}]: {} is given, and {} says itself when its samples were; an entry without it is expected",
+                index,
+                described.timeColumn ? "\"time_column\""
+                : described.rate_hz  ? "\"rate_hz\""
+                : described.decimal  ? "\"decimal\""
+                                     : "\"skip_rows\"",
+                path.filename().string());
+        const SignalChoice choice{described.kind, described.stream, described.columns, described.unit};
+        auto chosen = chooseSignals(file, choice);
+        if (!chosen) return refuse("streams[{}]: {}: {}", index, path.filename().string(), chosen.error().message);
+        auto stream = streamOf(std::move(*chosen), choice, path);
+        if (file.ours) dropEmptySamples(stream.samples, stream.info.channels);
+        for (auto& value : stream.samples.values) value *= described.factor;
+        return examined(std::move(stream));
+    }
+
+    Result<RecordedStream> readStream(const DescribedStream& described, std::size_t index) {
         if (auto fits = checkColumns(described, index); !fits) return failure(fits);
         if (described.factor == 0)
             return refuse("streams[{}]: \"factor\" is 0; a number that turns no value into 0 was expected", index);
         const auto path = fileOf(described.file, index);
         if (!path) return failure(path);
+        const auto signals = signalsOf(*path);
+        if (!signals) return failure(signals);
+        if (*signals != nullptr) return readSignals(described, index, **signals, *path);
+        const auto unit = unitOf(described, index);
+        if (!unit) return failure(unit);
+        const auto perSecond = perSecondOf(described, index);
+        if (!perSecond) return failure(perSecond);
         const auto content = readTextFile(*path);
         if (!content) return failure(content);
         auto samples = readTable(*content, path->string(),
@@ -255,13 +330,13 @@ private:
 
     Result<RecordedStream> examined(RecordedStream stream) const {
         if (stream.info.unit == StreamUnit::Count) markFarCounts(stream.samples, stream.info.channels);
-        const bool coarse = stampsAreCoarse(stream.samples.t_s);
+        const bool coarse = !stream.stamped && stampsAreCoarse(stream.samples.t_s);
         if (coarse) spreadCoarseStamps(stream.samples.t_s);
         const double rough = roughRate_hz(stream.samples.t_s);
         if (!(rough > 0)) {
             return fail(ErrorCode::ParseError,
-                        "{}:2: time never moves forward in the file; rising time stamps were expected",
-                        stream.file.string());
+                        "{}{}: time never moves forward in the file; rising time stamps were expected",
+                        stream.file.string(), stream.stamped ? "" : ":2");
         }
         StreamHealth health(rough);
         health.feed(stream.samples, stream.info.channels);
@@ -272,11 +347,32 @@ private:
     }
 
     fs::path file_;
+    const SignalReader& reader_;
+    std::map<std::string, std::optional<SignalFile>> read_;
+    SignalFile signals_;  // what all of them say of their origin and damage
 };
+
+/// Opens a file that no JSON describes: by the names of its channels, else the message describes it.
+Result<Recording> openUndescribed(const fs::path& path, const SignalReader& reader) {
+    auto file = reader ? reader(path) : Result<std::optional<SignalFile>>(std::nullopt);
+    if (!file) return failure(file);
+    if (!*file)
+        return fail(ErrorCode::NotFound,
+                    "{} has no recording.json beside it that names it; \"tactoscope-cli roughness {}\" prints one",
+                    path.string(), path.string());
+    const auto own = ownSignals(**file);
+    if (!own.empty()) return Description(path, reader).readOwn(std::move(**file), own);
+    const auto draft = draftSignals(**file, path);
+    if (!draft) return failure(draft);
+    return fail(ErrorCode::NotFound,
+                "{} has no recording.json beside it that says which of its channels are a fingertip's; {}. Filled in "
+                "where it says null and saved as recording.json beside it, this opens it:\n{}",
+                path.string(), signalList(**file, path), draft->json);
+}
 
 }  // namespace
 
-Result<Recording> Recording::open(const std::filesystem::path& path) {
+Result<Recording> Recording::open(const std::filesystem::path& path, const SignalReader& reader) {
     std::error_code error;
     auto file = path;
     if (fs::is_directory(path, error)) {
@@ -290,17 +386,13 @@ Result<Recording> Recording::open(const std::filesystem::path& path) {
         }
     } else if (fs::is_regular_file(path, error) && path.extension() != ".json") {
         file = descriptionBeside(path);
-        if (file.empty()) {
-            return fail(ErrorCode::NotFound,
-                        "{} has no recording.json beside it that names it; \"tactoscope-cli roughness {}\" prints one",
-                        path.string(), path.string());
-        }
+        if (file.empty()) return openUndescribed(path, reader);
     }
     const auto content = readTextFile(file);
     if (!content) return failure(content);
     const auto root = parseJson(*content, file.string());
     if (!root) return failure(root);
-    return Description(file).read(*root);
+    return Description(file, reader).read(*root);
 }
 
 const RecordedStream* Recording::find(StreamKind kind) const noexcept {

@@ -1,4 +1,4 @@
-// Recording.h - opens sensor data from other sources: CSV files with a recording.json next to them.
+// Recording.h - opens sensor data from other sources: CSV, EDF, BDF and XDF files with a recording.json next to them.
 //
 // Units are converted on reading (g to m/s2, kPa to Pa); time stamps become seconds and keep their zero. Errors are
 // refused with one sentence that names file, line and what was expected. Irregularities (gaps, repeats, clock steps,
@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "core/acquisition/SignalFile.h"
 #include "core/acquisition/StreamHealth.h"
 #include "core/base/Result.h"
 #include "core/base/Stream.h"
@@ -27,6 +28,7 @@ struct RecordedStream {
     SampleBlock samples;
     HealthReport health;
     std::filesystem::path file;
+    bool stamped = false;  ///< each sample has its own stamp in the file, which is never changed
 };
 
 struct Recording {
@@ -38,11 +40,14 @@ struct Recording {
     std::filesystem::path path;     ///< the JSON file
     DeclaredIntervals declared;
     std::vector<RecordedStream> streams;  ///< at most one of each kind
+    std::vector<std::string> warnings;    ///< what of its files could not be read, one sentence each
 
     /// Opens a recording. `path` is a folder with recording.json, such a JSON file, or a table that a JSON file next to
-    /// it names. Errors: NotFound (no recording.json: the message says how to create one); ParseError; InvalidArgument
-    /// (an unknown kind or unit, a `file` that is absolute or leaves the folder); Io.
-    [[nodiscard]] static Result<Recording> open(const std::filesystem::path& path);
+    /// it names; of files that `reader` knows also one whose channels are named as our exports name them. Errors:
+    /// NotFound (no recording.json: the message says how to create one, or lists what a file that `reader` knows holds,
+    /// with a recording.json for it on the lines below); ParseError; InvalidArgument (an unknown kind or unit, a `file`
+    /// that is absolute or leaves the folder); Io.
+    [[nodiscard]] static Result<Recording> open(const std::filesystem::path& path, const SignalReader& reader = {});
 
     /// Returns the stream of this kind, or null.
     [[nodiscard]] const RecordedStream* find(StreamKind kind) const noexcept;

@@ -7,6 +7,7 @@
 
 #include "core/acquisition/RecordingTable.h"
 #include "core/acquisition/RecordingUnits.h"
+#include "core/acquisition/SignalStreams.h"
 #include "core/acquisition/StreamHealth.h"
 #include "core/base/Csv.h"
 #include "core/base/CsvHead.h"
@@ -20,34 +21,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Returns whether `name` is `stem` followed by digits: "c12".
-bool isNumbered(std::string_view name, std::string_view stem) {
-    if (!name.starts_with(stem) || name.size() == stem.size()) return false;
-    return name.find_first_not_of("0123456789 _-", stem.size()) == std::string_view::npos;
-}
-
 bool isTimeName(std::string_view name) {
     return name == "t" || name == "zeit" || name == "temps" || name.find("time") != std::string_view::npos ||
            name.find("stamp") != std::string_view::npos || name == "seconds" || name == "second";
-}
-
-std::optional<StreamKind> kindByName(std::string_view name) {
-    for (const std::string_view word : {"acc", "vibration", "beschleunigung"}) {
-        if (name.find(word) != std::string_view::npos) return StreamKind::Acceleration;
-    }
-    for (const std::string_view word : {"x", "y", "z", "ax", "ay", "az", "a_x", "a_y", "a_z"}) {
-        if (name == word) return StreamKind::Acceleration;
-    }
-    for (const std::string_view word : {"force", "kraft", "load"}) {
-        if (name.find(word) != std::string_view::npos) return StreamKind::Force;
-    }
-    for (const std::string_view word : {"f", "fz", "fn", "f_z", "f_n", "normal"}) {
-        if (name == word) return StreamKind::Force;
-    }
-    for (const std::string_view stem : {"taxel", "channel", "ch", "c", "e", "electrode", "sensor", "p", "pressure"}) {
-        if (isNumbered(name, stem)) return StreamKind::Taxels;
-    }
-    return std::nullopt;
 }
 
 /// A column, as described by its header.
@@ -81,9 +57,7 @@ public:
         findTime();
         for (auto& column : columns_) {
             if (&column == time_) continue;
-            for (const auto& kind : kStreamKinds) {
-                if (!column.kind && recordedUnit(kind.value, column.unit)) column.kind = kind.value;
-            }
+            column.kind = kindByUnit(column.unit);
             if (!column.kind) column.kind = kindByName(lowered(column.name));
         }
         chooseStreams();
@@ -321,7 +295,12 @@ private:
 
 }  // namespace
 
-Result<RecordingDraft> draftRecording(const std::filesystem::path& table) {
+Result<RecordingDraft> draftRecording(const std::filesystem::path& table, const SignalReader& reader) {
+    if (reader) {
+        const auto signals = reader(table);
+        if (!signals) return failure(signals);
+        if (*signals) return draftSignals(**signals, table);
+    }
     auto content = readTextFile(table);
     if (!content) return failure(content);
     auto text = asUtf8(*content);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/acquisition/SignalFile.h"
 #include "core/base/Result.h"
 
 namespace tacto {
@@ -17,7 +18,9 @@ struct RecordingDraft {
     std::vector<std::string> taken;  ///< conclusions and omissions that the user should check
 };
 
-/// Drafts the description. Errors: as readTextFile(); ParseError for a file without a row of numbers.
-[[nodiscard]] Result<RecordingDraft> draftRecording(const std::filesystem::path& table);
+/// Drafts the description; what a file holds that `reader` knows stands in `taken`. Errors: as readTextFile(), and the
+/// reader's; ParseError for a file without a row of numbers.
+[[nodiscard]] Result<RecordingDraft> draftRecording(const std::filesystem::path& table,
+                                                    const SignalReader& reader = {});
 
 }  // namespace tacto

@@ -24,6 +24,11 @@ struct RecordedUnit {
 /// Returns the units that recordedUnit() accepts.
 [[nodiscard]] std::vector<std::string_view> unitsOf(StreamKind kind);
 
+/// Returns the kind that has a unit other than count; nothing for no such unit.
+[[nodiscard]] std::optional<StreamKind> kindByUnit(std::string_view text);
+/// Guesses what a channel holds from its name in small letters: "acc_x", "fz", "taxel 12".
+[[nodiscard]] std::optional<StreamKind> kindByName(std::string_view name);
+
 struct RecordedTimeUnit {
     double perSecond;
     const char* spelled;

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <limits>
 
-#include "core/acquisition/Recording.h"
 #include "core/devices/Device.h"
 #include "core/devices/DeviceUri.h"
+#include "core/exchange/recordings/OpenRecording.h"
 #include "drivers/replay/ReplayDrivers.h"
 
 namespace tacto {
@@ -97,14 +97,18 @@ public:
         if (auto free = into.checkFree(Role::Sensor, uri); !free) return free;
         if (uri.path.empty()) {
             return fail(ErrorCode::InvalidArgument,
-                        "device \"{}\" names no recording: write recording:FOLDER or recording:FILE.json", uri.text());
+                        "device \"{}\" names no recording: write recording:FOLDER, recording:FILE.json, or an EDF, BDF "
+                        "or XDF file",
+                        uri.text());
         }
         UriParameters from(uri);
         const double speed = from.quantity("speed", "", 1, kSlowest, kFastest);
         if (auto read = from.finish(); !read) return read;
-        auto recording = Recording::open(uri.path);
+        auto recording = openRecording(uri.path);
         if (!recording) return failure(recording);
-        DeviceIdentity identity{uri.text(),           Role::Sensor, "recording: " + recording->title,
+        auto name = "recording: " + recording->title;
+        if (!recording->warnings.empty()) name += " (" + recording->warnings.front() + ")";
+        DeviceIdentity identity{uri.text(),           Role::Sensor, std::move(name),
                                 recording->fingertip, "",           recording->simulated.value_or(false)};
         into.sensor =
             std::make_unique<ReplayedRecording>(std::move(*recording), std::move(identity), speed, context.clock);

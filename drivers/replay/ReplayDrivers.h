@@ -1,6 +1,7 @@
 // ReplayDrivers.h - devices that replay files, on the virtual clock as well as the steady clock.
 //
-//   recording:PATH            replays a recording (core/acquisition) as a fingertip; it begins when it is opened
+//   recording:PATH            replays a recording (core/acquisition) as a fingertip; it begins when it is opened.
+//                             PATH is its folder, its JSON file, or an EDF, BDF or XDF file
 //   recording:PATH?speed=2    plays it twice as fast and compresses its time stamps
 //   capture:FOLDER            plays captures of any known format, in order of name, as an oscilloscope
 //

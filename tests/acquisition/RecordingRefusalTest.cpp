@@ -87,7 +87,8 @@ TEST(RecordingRefusal, ColumnsThatAreNotThere) {
 }
 
 TEST(RecordingRefusal, UnitsKindsAndTimes) {
-    EXPECT_THAT(refused(kGoodCsv, describe("", "kgf")).message, HasSubstr("one of N, mN, kN, count was expected"));
+    EXPECT_THAT(refused(kGoodCsv, describe("", "kgf")).message,
+                HasSubstr("one of N, mN, kN, count, uV, mV, V was expected"));
     EXPECT_THAT(refused(kGoodCsv, describe("", "Pa")).message, HasSubstr("for force"));
     EXPECT_THAT(refused(kGoodCsv, describe("", "N", "f.csv", "force", "pressure")).message,
                 HasSubstr("acceleration, force or taxels was expected"));

@@ -24,7 +24,7 @@
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
-#include "core/acquisition/Recording.h"
+#include "core/exchange/recordings/OpenRecording.h"
 #include "core/measure/PulseMeasurement.h"
 
 namespace tacto::gui {
@@ -368,7 +368,7 @@ bool LiveWorkspace::openRecording(const QString& path) {
     const std::filesystem::path file = path.toStdString();
     std::error_code error;
     if (!std::filesystem::exists(std::filesystem::is_directory(file, error) ? file / "recording.json" : file, error)) {
-        const auto recording = Recording::open(file);
+        const auto recording = tacto::openRecording(file);
         emit refusedRecording(recording ? tr("%1 no longer exists.").arg(path)
                                         : QString::fromStdString(recording.error().message));
         return false;
@@ -404,8 +404,8 @@ void LiveWorkspace::replayAgain() {
 }
 
 void LiveWorkspace::chooseRecording() {
-    FileQuestion question{.title = tr("Open a recording (recording.json)"),
-                          .filters = {tr("Recordings (*.json)"), tr("All files (*)")}};
+    FileQuestion question{.title = tr("Open a recording (recording.json, EDF, BDF or XDF)"),
+                          .filters = {tr("Recordings (*.json *.edf *.bdf *.xdf)"), tr("All files (*)")}};
     askForFile(*this, question, [this](const QString& path) { openRecording(path); });
 }
 

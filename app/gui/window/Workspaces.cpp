@@ -24,6 +24,7 @@
 #include "app/gui/theme/Theme.h"
 #include "app/run/AllDrivers.h"
 #include "app/run/CaptureFormatsList.h"
+#include "core/exchange/recordings/OpenRecording.h"
 
 namespace tacto::gui {
 
@@ -230,7 +231,8 @@ void Workspaces::openFile(const QString& path) {
     noteAsked(path);
     if (!file.exists() && path.contains(QChar::ReplacementCharacter)) {
         emit complained(tr("The name of %1 is not UTF-8. Rename it first.").arg(path));
-    } else if (file.isDir() || file.suffix() == "json") {
+    } else if (file.isDir() || file.suffix() == "json" ||
+               std::ranges::find(kSignalEndings, file.suffix().toLower().toStdString()) != std::end(kSignalEndings)) {
         if (live_->openRecording(path)) showLive(kTouch);
     } else if (file.suffix() == "tacto") {
         make(kSessions);
@@ -239,8 +241,9 @@ void Workspaces::openFile(const QString& path) {
         static_cast<void>(scope_->openCaptureFile(path));
         showLive(kScope);  // shows the capture, or why it was not opened
     } else {
-        emit complained(tr("%1 is not a recording (a folder or recording.json), session (*.tacto) or capture (%2)")
-                            .arg(path, ScopeFiles::captureGlobs()));
+        emit complained(
+            tr("%1 is not a recording (a folder, recording.json, EDF, BDF or XDF), session (*.tacto) or capture (%2)")
+                .arg(path, ScopeFiles::captureGlobs()));
     }
 }
 
