@@ -161,6 +161,7 @@ Result<Participant> Study::enrol(Participant participant) {
     if (auto sound = checkAbout(participant); !sound) return failure(sound);
     if (auto fits = checkForLedger(participant); !fits) return failure(fits);
     if (auto old = ageGate(settings, participant); !old) return failure(old);
+    if (auto may = state_->mayWrite(); !may) return failure(may);
     participant.id = randomHex(kIdDigits);
     // The key is saved first: without its key a row could never be opened.
     if (auto added = state_->keys->add(participant.id, participant.code); !added) return failure(added);
@@ -239,6 +240,12 @@ Result<void> Study::withdraw(std::string_view code) {
     if (!noted) return noted;
     if (auto destroyed = state_->keys->destroy(participant->id); !destroyed) return destroyed;
     return state_->read();
+}
+
+Result<void> Study::would(const std::function<Result<void>(Study&)>& change) {
+    state_->tried = false;
+    const auto done = change(*this);
+    return std::exchange(state_->tried, std::nullopt).value_or(false) ? Result<void>() : done;
 }
 
 Result<void> Study::amend(StudySettings settings, std::string_view reference) {

@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -213,6 +214,9 @@ public:
     /// The participant's unfinished session, if any.
     [[nodiscard]] std::optional<StudySession> unfinished(std::string_view participantId) const;
 
+    /// Says what a change (enrol() to note()) would be refused for, as far as that is known without reading files;
+    /// nothing is written. Errors: as `change`.
+    [[nodiscard]] Result<void> would(const std::function<Result<void>(Study&)>& change);
     /// Enrols a participant; if `participant.code` is empty, draws a code. Of the other fields, uses only group,
     /// virtualSeed, age, sex and handedness. Errors: kGateRefused if the approved number is already enrolled, or for an
     /// age below the approval's;

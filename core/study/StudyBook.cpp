@@ -169,7 +169,13 @@ Result<void> StudyBook::changeable() const {
         return fail(ErrorCode::Unsupported, "the study in {} is opened without its passphrase; it is needed here",
                     files.folder.string());
     }
-    return isNewest();
+    return tried ? Result<void>() : isNewest();  // a change that is tried at each key reads no files
+}
+
+Result<void> StudyBook::mayWrite() {
+    if (!tried) return {};
+    tried = true;
+    return fail(ErrorCode::Stopped, "the change was only tried; nothing was written");
 }
 
 Result<void> StudyBook::isNewest() const {
@@ -244,6 +250,7 @@ Result<void> StudyBook::append(const char* name, nlohmann::json body, const Secr
 }
 
 Result<void> StudyBook::write(const char* name, nlohmann::json body, const Secret* key, const nlohmann::json& content) {
+    if (auto may = mayWrite(); !may) return may;
     if (key != nullptr) body["sealed"] = sealedInLedger(settings.id, *key, ledger->next(), name, content);
     const auto at = now();
     body["mac"] = macInLedger(settings.id, keys->study(), ledger->next(), at, name, body, ledger->head());
@@ -318,6 +325,7 @@ Result<void> StudyBook::amend(StudySettings amended, std::string_view reference)
     amended.approval.reference = reference;
     amended.approval.protocolSha256 = protocolHash(amended);
     if (auto sound = studyFields().check(amended, RecordPlace{}); !sound) return sound;
+    if (auto may = mayWrite(); !may) return may;
     const auto text = studyText(amended);
     if (auto drafted = draftStudy(files, text); !drafted) return drafted;
     auto row = settingsRow(amended, text);

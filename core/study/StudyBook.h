@@ -29,6 +29,7 @@ struct StudyBook {
     std::optional<StudyKeys> keys;  ///< not set without the passphrase
     std::optional<Ledger> ledger;   ///< none if opened for reading
     LedgerState known;
+    std::optional<bool> tried{};  ///< set: nothing is written (Study::would()); true once every check has passed
 
     /// Does what Study::open() does.
     [[nodiscard]] static Result<StudyBook> open(const std::filesystem::path& folder, const Passphrase* passphrase,
@@ -46,6 +47,8 @@ struct StudyBook {
     [[nodiscard]] Result<void> read();
     /// Checks that changes are possible. Errors: Unsupported without the key or if opened for reading; as isNewest().
     [[nodiscard]] Result<void> changeable() const;
+    /// Called before each write: ends a change that is only tried. Errors: Stopped if it is.
+    [[nodiscard]] Result<void> mayWrite();
     /// Checks that the ledger is the newest that this computer knows of: it contains the ends noted next to the keys,
     /// in the key file and in each session, and every session's file. Errors: kGateRefused, naming the way back.
     [[nodiscard]] Result<void> isNewest() const;

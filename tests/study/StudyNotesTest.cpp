@@ -76,6 +76,99 @@ TEST_F(Desk, ANoteThatCannotBeMeantIsRefusedWithItsField) {
     EXPECT_TRUE(study.notes().empty());
 }
 
+/// What an operator may type, right and wrong.
+std::function<Result<void>(Study&)> drawnChange(const std::string& code, const std::string& session,
+                                                std::mt19937& random) {
+    const auto oneOf = [&random](std::initializer_list<const char*> all) {
+        return std::string(*(all.begin() + std::ptrdiff_t(random() % all.size())));
+    };
+    switch (random() % 8) {
+        case 0: {
+            Participant who;
+            who.age = oneOf({"", "34", "34.5", "17", "0", "121"});
+            who.sex = oneOf({"", "female", "woman"});
+            who.code = oneOf({"", "", "P-7K3D", "P-AAAA", code.c_str()});
+            if (random() % 3 == 0) who.virtualSeed = random() % 3;
+            return [who](Study& study) -> Result<void> {
+                const auto made = study.enrol(who);
+                return made ? Result<void>() : failure(made);
+            };
+        }
+        case 1: {
+            const Consent consent{
+                oneOf({"2", "1", ""}),
+                parseDate(oneOf({"2026-11-20", "2026-11-24", "2020-01-01", "never"})).value_or(CalibrationDate()),
+                oneOf({"KL", ""})};
+            return [=](Study& study) { return study.consent(code, consent); };
+        }
+        case 2: {
+            const auto& kinds = studyLogKinds();
+            auto note = drawnNote(kinds[random() % kinds.size()], random);
+            const auto at = std::next(note.said.begin(), std::ptrdiff_t(random() % note.said.size()));
+            if (random() % 2 == 0) at->second = oneOf({"", "yesterday", "2026-12-01", "unknown"});
+            return [note](Study& study) { return study.note(note); };
+        }
+        case 3: {
+            const AdverseEvent event{.what = oneOf({"fell", ""}),
+                                     .severity = int(random() % 6),
+                                     .relation = int(random() % 7),
+                                     .onset = oneOf({"", "2026-11-20", "2026-11-25", "soon"}),
+                                     .ended = oneOf({"", "2026-11-19", "2026-11-21"})};
+            const auto of = oneOf({"", session.c_str(), "ffff"});
+            return [=](Study& study) { return study.adverseEvent(of, event); };
+        }
+        case 4:
+            return [said = NextDay{.erythema = int(random() % 6), .oedema = int(random() % 3)}, session](Study& study) {
+                return study.nextDay(session, said);
+            };
+        case 5: {
+            const auto reference = oneOf({"EC-2026-17", "", "A1", "A2", "A3"});
+            const int most = int(random() % 8), blocks = int(random() % 25);
+            return [=](Study& study) {
+                auto settings = study.settings();
+                settings.participantsMax = most;
+                settings.blocks = blocks;
+                return study.amend(settings, reference);
+            };
+        }
+        case 6:
+            return [n = random() % 3, by = oneOf({"", "KL"})](Study& study) { return study.release(n, by, "so"); };
+        default:
+            return [code, n = std::size_t(random() % 5000)](Study& study) {
+                return study.leave(code, std::string(n, 'x'));
+            };
+    }
+}
+
+TEST_F(Desk, WhatIsTriedIsJudgedAsItWouldBeAndNothingIsWritten) {
+    RecordProperty("hazard", "H11");
+    std::mt19937 random(4);
+    std::size_t accepted = 0, refused = 0;
+    for (int round = 0; round < 12; ++round) {
+        std::filesystem::remove_all(folder());
+        auto study = make();
+        const auto code = enrolled(study);
+        const auto begun = test::accepted(study.beginSession(test::someRequest(code)));
+        ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, ""));
+        if (random() % 2 == 0) ASSERT_TRUE(study.adverseEvent({}, {.what = "fell", .serious = true}));
+        for (int i = 0; i < 12; ++i) {
+            const auto change = drawnChange(code, begun.session.id, random);
+            const auto before = everythingBelow(folder()) + everythingBelow(scratch.path() / "home");
+            const auto tried = study.would(change);
+            EXPECT_EQ(everythingBelow(folder()) + everythingBelow(scratch.path() / "home"), before);
+            const auto done = change(study);
+            ASSERT_EQ(tried.has_value(), done.has_value()) << (done ? tried : done).error().message;
+            if (!done) EXPECT_EQ(tried.error().message, done.error().message);
+            ++(done ? accepted : refused);
+        }
+        // What destroys keys is tried no otherwise.
+        EXPECT_TRUE(study.would([&](Study& into) { return into.withdraw(code); }));
+        EXPECT_TRUE(study.find(code)) << "the key is still there";
+        EXPECT_TRUE(test::accepted(open(Study::Access::Read)).find(code));
+    }
+    EXPECT_GT(std::min(accepted, refused), 20U);
+}
+
 TEST_F(Desk, ASeriousEventHoldsTheStudyUntilItIsReleasedByName) {
     RecordProperty("hazard", "H12");
     auto study = make();

@@ -73,6 +73,7 @@ ParticipantFace::ParticipantFace(std::function<void()> stop, QWidget* parent)
     hold_->setObjectName("hold");
     hold_->hide();
     line_->hide();
+    line_->setContextMenuPolicy(Qt::NoContextMenu);  // Qt's menu would be in the program's language
     afterLookChange(*this, [this] { arrange(); });
     onEvent(*this, QEvent::Resize, [this] { arrange(); });
 }
@@ -158,13 +159,14 @@ void ParticipantFace::show(const ParticipantView& view) {
     leastWord_->setText(scale ? qtext(asked_->leastText) : QString());
     mostWord_->setText(scale ? qtext(asked_->mostText) : QString());
     line_->setVisible(asked_ && asked_->kind == PromptKind::Text);
-    block_->setText(screen.blocks > 0 && screen.block > 0
-                        ? word("phase.block",
-                               {{"block", fmt::format("{}", screen.block)}, {"of", fmt::format("{}", screen.blocks)}})
-                        : phaseTitle(screen.phase));
-    blocks_->setShares(screen.blocks > 0 && screen.block > 0
-                           ? blockShares(screen.block, screen.blocks, screen.trial, screen.trials)
-                           : std::vector<double>());
+    const bool counted = screen.blocks > 0 && screen.block > 0;
+    block_->setText(!counted ? phaseTitle(screen.phase)
+                    : screen.phase == "ascending"  // series of rising levels, and no blocks of the test
+                        ? QString("%1  %2 / %3").arg(phaseTitle(screen.phase)).arg(screen.block).arg(screen.blocks)
+                        : word("phase.block",
+                               {{"block", fmt::format("{}", screen.block)}, {"of", fmt::format("{}", screen.blocks)}}));
+    blocks_->setShares(counted ? blockShares(screen.block, screen.blocks, screen.trial, screen.trials)
+                               : std::vector<double>());
     if (view.stopped) {
         field_->clear();
         return put(word("stopped.title"), word("stopped.below"));

@@ -54,7 +54,7 @@ public:
         form_ = new FieldForm(this, labels);
         form_->setMissingSaidOnceLeft();
         form_->show(fields);
-        connect(form_, &FieldForm::edited, this, [this] { clearTrouble(); });
+        connect(form_, &FieldForm::edited, this, &StudyDialog::judge);
         column_->addWidget(form_);
         return form_;
     }
@@ -78,7 +78,9 @@ public:
         for (auto* each : {cancel_ = buttons->button(QDialogButtonBox::Cancel), button}) each->setAutoDefault(false);
         column_->addWidget(buttons);
         connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
-        connect(button, &QPushButton::clicked, this, [this, nothing, act = std::move(act)] { take(nothing, act); });
+        act_ = std::move(act);
+        button_ = button;
+        connect(button, &QPushButton::clicked, this, [this, nothing] { take(nothing); });
         growWithContent(*this);
     }
     /// `byReturn`: the button is the default.
@@ -89,22 +91,33 @@ public:
         primary->setDefault(byReturn);
     }
     [[nodiscard]] OpenStudy& opened() const { return study_; }
+    /// Tries the change whenever an answer changes, and disables the button, with the reason beside it, while the study
+    /// would refuse it. Called after finish(); `act` must do nothing but change the study before that succeeds.
+    void judgeAsTyped() {
+        judged_ = true;
+        judge();
+    }
+    void judge() {
+        QString why;
+        if (auto* study = study_.study(); judged_ && study != nullptr) {
+            why = form_ == nullptr ? QString() : form_->wrong();
+            if (const auto done = why.isEmpty() ? study->would(act_) : Result<void>(); !done)
+                why = sentence(done.error());
+        }
+        trouble_->say(why);
+        if (judged_) button_->setEnabled(why.isEmpty());
+    }
     /// Returns the study if it is open; null otherwise.
     [[nodiscard]] const Study* study() const { return study_.study(); }
-    void clearTrouble() { trouble_->say({}); }
     /// Keeps the dialog open after `act` succeeds.
     void stayOpen() { stays_ = true; }
     void nameCancel(const QString& word) { cancel_->setText(word); }
 
 private:
-    void take(const QString& nothing, const Act& act) {
+    void take(const QString& nothing) {
         auto* study = study_.study();
         if (study == nullptr) return trouble_->say(tr("The study is not open any more. %1").arg(nothing));
-        if (const auto open = form_ == nullptr ? QString() : form_->unanswered(); !open.isEmpty()) {
-            form_->goToRefused();
-            return trouble_->say(open);
-        }
-        if (const auto done = act(*study); !done) return trouble_->say(sentence(done.error()));
+        if (const auto done = act_(*study); !done) return trouble_->say(sentence(done.error()));
         study_.noteChange();
         if (!stays_) accept();
     }
@@ -113,6 +126,9 @@ private:
     TroubleLine* trouble_;
     FieldForm* form_ = nullptr;
     QPushButton* cancel_ = nullptr;
+    QPushButton* button_ = nullptr;  // acts
+    Act act_;
+    bool judged_ = false;
     bool scrolls_ = false;
     bool stays_ = false;
 };
@@ -268,7 +284,6 @@ QDialog* enrolDialog(OpenStudy& study, std::function<void(const QString& code)> 
             }
             const auto enrolled = into.enrol(std::move(participant));
             if (!enrolled) return failure(enrolled);
-            asks->clearTrouble();
             form->hide();
             asks->findChild<QPushButton*>("enrolNow")->setText(tr("Note the consent…"));
             code->setText(qtext(enrolled->code));
@@ -283,6 +298,7 @@ QDialog* enrolDialog(OpenStudy& study, std::function<void(const QString& code)> 
             return {};
         },
         true);
+    asks->judgeAsTyped();
     return asks;
 }
 
@@ -294,19 +310,22 @@ QDialog* consentDialog(OpenStudy& study, const QString& code, QWidget* parent) {
     auto date = textField("date", tr("Day on which it was signed"),
                           open == nullptr ? QString() : qtext(dateText(open->today())), tr("No later than today."));
     date.parameter.type = ParameterType::Date;
-    auto* form = asks->ask({textField("version", tr("Version of the form that was signed"),
-                                      open == nullptr ? QString() : qtext(open->settings().consentVersion),
-                                      tr("Sessions need consent to the version in force.")),
-                            date,
-                            textField("by", tr("Investigator’s initials"), {},
-                                      tr("The investigator’s initials, not the participant’s."))});
+    std::vector<FormField> fields{
+        textField("version", tr("Version of the form that was signed"),
+                  open == nullptr ? QString() : qtext(open->settings().consentVersion),
+                  tr("Sessions need consent to the version in force.")),
+        date,
+        textField("by", tr("Investigator’s initials"), {}, tr("The investigator’s initials, not the participant’s."))};
+    for (auto& field : fields) field.parameter.needed = tr("no session can begin").toStdString();
+    auto* form = asks->ask(fields);
     const auto act = [=](Study& into) -> Result<void> {
-        const auto signedOn = parseDate(form->text("date").toStdString());
-        if (!signedOn) return fail(ErrorCode::InvalidArgument, "the day is missing. One as 2026-11-21 is expected.");
-        return into.consent(code.toStdString(),
-                            {form->text("version").toStdString(), *signedOn, form->text("by").toStdString()});
+        return into.consent(
+            code.toStdString(),
+            {form->text("version").toStdString(),
+             parseDate(form->text("date").toStdString()).value_or(CalibrationDate()), form->text("by").toStdString()});
     };
     asks->finish(tr("Note the consent"), "noteConsent", tr("Nothing was noted."), act, true);
+    asks->judgeAsTyped();
     return asks;
 }
 
@@ -350,6 +369,7 @@ QDialog* endPartDialog(OpenStudy& study, EndOfPart how, const QString& code, QWi
         return withdraws ? into.withdraw(code.toStdString())
                          : into.leave(code.toStdString(), reason->text("leaveReason").toStdString());
     });
+    if (!withdraws) asks->judgeAsTyped();
     return asks;
 }
 
@@ -389,6 +409,7 @@ QDialog* adverseEventDialog(OpenStudy& study, const QString& code, QWidget* pare
         const auto session = form->text("session");
         return into.adverseEvent(session == kNoSession ? std::string() : session.toStdString(), event);
     });
+    asks->judgeAsTyped();
     return asks;
 }
 
@@ -414,6 +435,7 @@ QDialog* releaseDialog(OpenStudy& study, QWidget* parent) {
         return into.release(form->text("event").toULongLong(), form->text("by").toStdString(),
                             form->text("reason").toStdString());
     });
+    asks->judgeAsTyped();
     return asks;
 }
 
@@ -446,6 +468,7 @@ QDialog* noteDialog(OpenStudy& study, const StudyLogKind& kind, QWidget* parent)
         for (const auto& each : kind.fields) note.said[each.key] = form->text(each.key).trimmed().toStdString();
         return into.note(note);
     });
+    asks->judgeAsTyped();
     return asks;
 }
 
@@ -508,20 +531,44 @@ QDialog* nextDayDialog(OpenStudy& study, const QString& code, QWidget* parent) {
                          const int severity = items[i].severity->currentIndex();
                          const int relation = items[i].relation->currentIndex();
                          if (severity == 0) continue;
-                         if (relation == 0) {
-                             items[i].relation->setFocus();
+                         if (relation == 0)
                              return fail(ErrorCode::InvalidArgument,
                                          "how “{}” is related to the session is missing. 1 to 5 is expected.",
                                          QCoreApplication::translate("SideEffect", kSideEffects[i].text).toStdString());
-                         }
                          said.sideEffects.push_back({kSideEffects[i].key, severity, relation});
                      }
                      return into.nextDay(form->text("session").toStdString(), said);
                  });
+    for (const auto& item : effects.items)
+        for (auto* box : {item.severity, item.relation})
+            QObject::connect(box, &QComboBox::currentIndexChanged, asks, &StudyDialog::judge);
+    asks->judgeAsTyped();
     return asks;
 }
 
-QDialog* amendDialog(OpenStudy& study, QWidget* parent) {
+QDialog* useEncodingDialog(OpenStudy& study, const UseOfEncoding& use, QWidget* parent) {
+    auto* asks = new StudyDialog(study, "useEncoding", tr("Use the better encoding"),
+                                 tr("This is a proposal. Sessions follow it once the committee has approved it: both "
+                                    "ways lead to an amendment with its own reference."),
+                                 parent);
+    asks->say(use.found, "useEncodingFound");
+    std::vector<std::pair<QString, QString>> ways{
+        {"amendment", tr("in this study: “%1” alone, by an amendment").arg(use.encoding)}};
+    auto profile = study.profile();
+    if (use.encoding == "swapped" && profile.encoding.assignment != Assignment::Swapped) {
+        profile.encoding.assignment = Assignment::Swapped;
+        ways.emplace_back("profile", tr("in other studies: a new profile with this assignment"));
+    }
+    auto* form = asks->ask({choiceField("useEncodingWhere", tr("Use it"), ways, {})});
+    asks->finish(tr("Go on…"), "useEncodingNow", tr("Nothing was changed."), [=](Study&) -> Result<void> {
+        asks->accept();
+        form->text("useEncodingWhere") == "profile" ? use.profileWanted(profile) : use.amendWanted();
+        return {};
+    });
+    return asks;
+}
+
+QDialog* amendDialog(OpenStudy& study, QWidget* parent, const QString& encoding) {
     constexpr int kAmendWide = 860;
     auto* asks = new StudyDialog(
         study, "amend", tr("An amendment"),
@@ -530,15 +577,17 @@ QDialog* amendDialog(OpenStudy& study, QWidget* parent) {
         parent);
     auto* form = new StudyForm;
     if (const auto* open = asks->study()) form->amend(open->settings());
+    if (!encoding.isEmpty()) form->set("encodings", encoding);
     asks->scroll(form);
     asks->resize(scaledPx(kAmendWide), kDialogHigh);
-    QObject::connect(form, &StudyForm::edited, asks, [asks] { asks->clearTrouble(); });
+    QObject::connect(form, &StudyForm::edited, asks, &StudyDialog::judge);
     asks->finish(tr("Note the amendment"), "amendNow", tr("Nothing was changed."), [=](Study& into) -> Result<void> {
         auto settings = form->read(asks->opened().profile(), asks->opened().folder());
         if (!settings) return failure(settings);
         const auto reference = settings->approval.reference;
         return into.amend(std::move(*settings), reference);
     });
+    asks->judgeAsTyped();
     return asks;
 }
 

@@ -31,8 +31,18 @@ enum class EndOfPart { Leave, Withdraw };
                                     QWidget* parent);
 /// Records what a participant reports on a day after a session: side effects, redness, swelling.
 [[nodiscard]] QDialog* nextDayDialog(OpenStudy& study, const QString& code, QWidget* parent);
-/// Changes a study's settings under an amendment approved by the committee, which has its own reference.
-[[nodiscard]] QDialog* amendDialog(OpenStudy& study, QWidget* parent);
+/// Changes a study's settings under an amendment approved by the committee, which has its own reference. `encoding`:
+/// proposed as the only one; empty: no proposal.
+[[nodiscard]] QDialog* amendDialog(OpenStudy& study, QWidget* parent, const QString& encoding = {});
+/// Proposes the encoding that people told apart better, for this study or for others; nothing changes unasked.
+/// `amendWanted` continues with an amendment; `profileWanted` is called with the profile to save.
+struct UseOfEncoding {
+    QString encoding;  ///< "swapped"
+    QString found;     ///< why it is better
+    std::function<void()> amendWanted;
+    std::function<void(const Profile& profile)> profileWanted;
+};
+[[nodiscard]] QDialog* useEncodingDialog(OpenStudy& study, const UseOfEncoding& use, QWidget* parent);
 /// Continues with a study's ledger that is older than the newest known on this computer: says what is lost, and asks
 /// for the passphrase again and for the word that names the loss.
 [[nodiscard]] QDialog* goBackDialog(OpenStudy& study, QWidget* parent);

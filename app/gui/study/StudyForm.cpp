@@ -138,12 +138,14 @@ StudySettings shownIn(const std::optional<StudySettings>& amended) {
     return settings;
 }
 
-/// Returns the choices of encoding: standard, or both. If the study `held` other encodings, they are added unchanged.
+/// Returns the choices of encoding: one of them, or both. If the study `held` other encodings, they are added
+/// unchanged.
 std::vector<std::pair<std::string, std::string>> encodingChoices(const std::string& held) {
     const auto word = [](const char* text) { return translated(text).toStdString(); };
     std::vector<std::pair<std::string, std::string>> all{
         {"standard", word(QT_TRANSLATE_NOOP("Study", "standard"))},
-        {"standard,swapped", word(QT_TRANSLATE_NOOP("Study", "standard, and swapped"))}};
+        {"standard,swapped", word(QT_TRANSLATE_NOOP("Study", "standard, and swapped"))},
+        {"swapped", word(QT_TRANSLATE_NOOP("Study", "swapped"))}};
     if (std::ranges::find(all, held, &std::pair<std::string, std::string>::first) == all.end())
         all.emplace_back(held, held);
     return all;
@@ -252,15 +254,10 @@ Result<StudySettings> StudyForm::read(const Profile& profile, const QString& fol
     const auto settings = shownIn(amended_);
     auto json = studyFields().write(settings);
     for (auto* form : groups_) {
-        if (const auto open = form->unanswered(); !open.isEmpty()) {
-            form->goToRefused();
-            return fail(ErrorCode::InvalidArgument, "{}", open.toStdString());
-        }
+        if (const auto wrong = form->wrong(); !wrong.isEmpty())
+            return fail(ErrorCode::InvalidArgument, "{}", wrong.toStdString());
         const auto read = form->read();
-        if (!read) {
-            form->goToRefused();
-            return failure(read);
-        }
+        if (!read) return failure(read);
         for (const auto& [key, value] : read->parameters.items()) {
             auto& into = memberOf(json, key);
             if (!into.is_array()) {

@@ -33,7 +33,7 @@ class StudyForm final : public QWidget {
 public:
     explicit StudyForm(QWidget* parent = nullptr);
     /// Returns the form's settings, with the approval's facts about this program and about `profile`, with which the
-    /// sessions are run. Errors: of the first refused or missing field, which gets the focus.
+    /// sessions are run. Errors: of the first refused or missing field.
     [[nodiscard]] Result<StudySettings> read(const Profile& profile, const QString& folder = {});
     /// Sets a field as if typed.
     void set(const std::string& key, const QString& text);

@@ -188,15 +188,16 @@ NewStudyPage::NewStudyPage(OpenStudy& study, QWidget* parent)
     auto* below = addPageFoot(*whole, this, QBoxLayout::TopToBottom);
     below->addWidget(trouble_);
     auto* foot = new QHBoxLayout;
-    auto* create = pageButton(tr("Create the study…"), "createStudy",
-                              tr("Asks for a passphrase, then makes folder and keys."), this);
-    makePrimary(*create);
+    create_ = pageButton(tr("Create the study…"), "createStudy",
+                         tr("Asks for a passphrase, then makes folder and keys."), this);
+    makePrimary(*create_);
     auto* cancel = pageButton(tr("Back"), "newStudyBack", {}, this);
-    for (auto* button : {create, cancel}) foot->addWidget(button);
+    for (auto* button : {create_, cancel}) foot->addWidget(button);
     foot->addStretch();
     below->addLayout(foot);
-    connect(form_, &StudyForm::edited, trouble_, &QLabel::hide);
-    connect(create, &QPushButton::clicked, this, &NewStudyPage::askForPassphrase);
+    connect(form_, &StudyForm::edited, this, &NewStudyPage::judge);
+    connect(&folder_->line(), &QLineEdit::textChanged, this, &NewStudyPage::judge);
+    connect(create_, &QPushButton::clicked, this, &NewStudyPage::askForPassphrase);
     connect(cancel, &QPushButton::clicked, this, &NewStudyPage::cancelled);
 }
 
@@ -204,11 +205,11 @@ void NewStudyPage::clear() {
     const QDir documents(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation));
     folder_->line().setText(documents.filePath("Tactoscope/study"));
     form_->clear();
-    trouble_->hide();
+    judge();
 }
 
-void NewStudyPage::askForPassphrase() {
-    const auto settings = form_->read(study_.profile());
+std::optional<StudySettings> NewStudyPage::judge() {
+    auto settings = form_->read(study_.profile());
     const auto folder = folder_->folder();
     const auto why = !settings          ? sentence(settings.error())
                      : folder.isEmpty() ? tr("The folder is missing. A new or empty one is expected.")
@@ -216,7 +217,15 @@ void NewStudyPage::askForPassphrase() {
                          ? tr("%1 holds a study already. A new or empty folder is expected.").arg(folder)
                          : QString();
     trouble_->say(why);
-    if (!why.isEmpty()) return;
+    create_->setEnabled(why.isEmpty());
+    if (!why.isEmpty()) return std::nullopt;
+    return std::move(*settings);
+}
+
+void NewStudyPage::askForPassphrase() {
+    const auto settings = judge();
+    if (!settings) return;
+    const auto folder = folder_->folder();
     auto* asks = asksFor(study_, PassphraseDialog::Purpose::New, qtext(settings->title), this);
     connect(asks, &PassphraseDialog::given, this,
             [this, asks, folder, settings = *settings] { study_.create(folder, settings, asks->passphrase()); });

@@ -62,11 +62,14 @@ signals:
     void cancelled();
 
 private:
+    /// Disables the button, with the reason beside it, while a value is refused. Returns the settings otherwise.
+    std::optional<StudySettings> judge();
     void askForPassphrase();
     OpenStudy& study_;
     FolderRow* folder_;
     StudyForm* form_ = nullptr;
     TroubleLine* trouble_;
+    QPushButton* create_ = nullptr;
 };
 
 }  // namespace tacto::gui

@@ -5,12 +5,15 @@
 
 #include "app/gui/runner/ResultTables.h"
 #include "app/gui/sessions/SessionPreview.h"
+#include "app/gui/study/StudyDialogs.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/report/FigureDrawing.h"
+#include "core/base/JsonText.h"
+#include "core/base/WholeFile.h"
 #include "core/study/StudyFiles.h"
 
 namespace tacto::gui {
@@ -30,7 +33,8 @@ StudyResults::StudyResults(OpenStudy& study, QWidget* parent)
       save_(pageButton(tr("Save this figure…"), "saveFigure", tr("As SVG, PDF or PNG, outside the study’s folder."),
                        this)),
       saveAll_(pageButton(tr("Save all figures…"), "saveFigures",
-                          tr("Each as SVG, in a new or empty folder outside the study’s folder."), this)) {
+                          tr("Each as SVG, in a new or empty folder outside the study’s folder."), this)),
+      use_(pageButton(tr("Use the better encoding…"), "useBetter", {}, this)) {
     setObjectName("studyResults");
     auto* whole = columnIn(*this, 0);
     auto* row = new QHBoxLayout;
@@ -59,13 +63,14 @@ StudyResults::StudyResults(OpenStudy& study, QWidget* parent)
     auto* buttons = new QHBoxLayout;
     auto* back = pageButton(tr("Back to the study"), "backFromResults", {}, this);
     makePrimary(*back);
-    for (auto* button : {back, save_, saveAll_}) buttons->addWidget(button);
+    for (auto* button : {back, save_, saveAll_, use_}) buttons->addWidget(button);
     buttons->addStretch();
     foot->addLayout(buttons);
     connect(list_, &QListWidget::currentRowChanged, this, &StudyResults::choose);
     connect(back, &QPushButton::clicked, this, &StudyResults::backWanted);
     connect(save_, &QPushButton::clicked, this, &StudyResults::saveOne);
     connect(saveAll_, &QPushButton::clicked, this, &StudyResults::saveAll);
+    connect(use_, &QPushButton::clicked, this, &StudyResults::useBetter);
 }
 
 void StudyResults::show(const StudyShown& shown) {
@@ -86,6 +91,9 @@ void StudyResults::choose(int row) {
     const auto parts = static_cast<int>(shown_.parts.size());
     const bool drawn = row >= parts;
     save_->setEnabled(drawn);
+    use_->setEnabled(!better().isEmpty());
+    use_->setToolTip(use_->isEnabled() ? tr("“%1”, for this study or for others, each by an amendment.").arg(better())
+                                       : tr("Here no encoding is better by the sessions of people on real devices."));
     if (row < 0) return tables_->show(nlohmann::json::object());
     pages_->setCurrentIndex(drawn ? 1 : 0);
     if (!drawn) return tables_->show(shown_.parts[std::size_t(row)]);
@@ -94,6 +102,38 @@ void StudyResults::choose(int row) {
     legend_->setVisible(!legend_->text().isEmpty());
     sheet_->show(drawFigure(figure.figure, figure.simulated));
     nameWidget(*sheet_, "figure", figure.caption);
+}
+
+QString StudyResults::better() const {
+    const auto row = std::size_t(std::max(0, list_->currentRow()));
+    if (list_->currentRow() < 0 || row >= shown_.parts.size()) return {};
+    const auto& part = shown_.parts[row];
+    return textOr(part, "basis") == "person" ? qtext(textOr(part, "better")) : QString();
+}
+
+void StudyResults::useBetter() {
+    QStringList found;
+    for (const auto& each : textsOr(shown_.parts[std::size_t(list_->currentRow())], "sentences")) found << qtext(each);
+    const UseOfEncoding use{better(), found.join("\n\n"),
+                            [this, encoding = better()] { openDialog(amendDialog(study_, this, encoding)); },
+                            [this](const Profile& profile) { saveProfile(profile); }};
+    openDialog(useEncodingDialog(study_, use, this));
+}
+
+void StudyResults::saveProfile(const Profile& profile) {
+    FileQuestion question{.title = tr("Where the new profile is saved"),
+                          .wants = FileQuestion::Wants::NewFile,
+                          .filters = {tr("Profiles (*.json)")},
+                          .name = "swapped.json",
+                          .suffix = "json"};
+    askForFile(*this, question, [this, profile](const QString& path) {
+        const auto written = writeWholeFile(path.toStdString(), dumpJson(toJson(profile), 2) + "\n");
+        said_->setText(written ? tr("The profile is %1. A study whose approval states another assignment takes it by "
+                                    "an amendment.")
+                                     .arg(path)
+                               : sentence(written.error()));
+        said_->show();
+    });
 }
 
 bool StudyResults::note(const QString& place) {

@@ -32,6 +32,10 @@ private:
     void choose(int row);
     void saveOne();
     void saveAll();
+    void useBetter();
+    /// Returns the better encoding of the chosen results, if people on real devices decided it.
+    [[nodiscard]] QString better() const;
+    void saveProfile(const Profile& profile);
     /// Notes in the study that `place` gets figures, which name people; says why not, and returns false.
     [[nodiscard]] bool note(const QString& place);
 
@@ -45,6 +49,7 @@ private:
     QLabel* said_;
     QPushButton* save_;
     QPushButton* saveAll_;
+    QPushButton* use_;
 };
 
 }  // namespace tacto::gui

@@ -421,7 +421,7 @@ bool FieldForm::lacks(const Field& field) const {
 QString FieldForm::unanswered() const {
     for (const auto& field : fields_) {
         if (!lacks(field)) continue;
-        return tr("Enter “%1” first.").arg(qtext(field.parameter.label));
+        return tr("Enter “%1” first.").arg(qtext(field.parameter.label).remove('&'));
     }
     return {};
 }
@@ -436,6 +436,11 @@ QString FieldForm::refusal() const {
         return field.why.startsWith(said + ' ') ? label + field.why.mid(said.size()) : label + ": " + field.why;
     }
     return {};
+}
+
+QString FieldForm::wrong() const {
+    const auto refused = refusal();
+    return refused.isEmpty() ? unanswered() : refused;
 }
 
 QString FieldForm::summary() const {

@@ -77,6 +77,8 @@ public:
     /// A sentence about the first field whose value cannot be read, with its label; empty if there is none. Leaves out
     /// fields that are hidden or cannot be edited now.
     [[nodiscard]] QString refusal() const;
+    /// refusal(), or else unanswered().
+    [[nodiscard]] QString wrong() const;
     /// The parameters that decide the verdict, and how many differ from the script's defaults: "4 cm² · 2 changed".
     [[nodiscard]] QString summary() const;
     /// Number of fields in this part that are refused, or that have no answer although the verdict needs one.

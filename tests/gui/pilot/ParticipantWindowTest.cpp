@@ -1,6 +1,7 @@
 // Tests the participant's answers by key, mouse and finger (once, after the targets), and stops from everywhere.
 #include <QAbstractButton>
 #include <QComboBox>
+#include <QContextMenuEvent>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
@@ -292,6 +293,45 @@ TEST_F(Seated, ReadsAllInTheirLanguage) {
         desk.show(testScreen(state));
         QCoreApplication::processEvents();
         for (const auto& each : english) EXPECT_FALSE(texts().contains(each)) << each.toStdString();
+    }
+    // Qt has no words of its own here, which would need a translation: no menu opens wherever the participant clicks.
+    PilotPrompt typed;
+    typed.kind = PromptKind::Text;
+    typed.name = "typed";
+    typed.text = german->text("introduction.1");
+    ASSERT_NO_FATAL_FAILURE(ask(typed));
+    for (auto* widget : window.findChildren<QWidget*>() << &window) {
+        if (!widget->isVisible()) continue;
+        QContextMenuEvent menu(QContextMenuEvent::Mouse, QPoint(2, 2), widget->mapToGlobal(QPoint(2, 2)));
+        QCoreApplication::sendEvent(widget, &menu);
+        EXPECT_EQ(QApplication::activePopupWidget(), nullptr) << widget->metaObject()->className();
+        EXPECT_EQ(widget->toolTip(), "") << widget->metaObject()->className();
+    }
+    for (const auto& each : english) EXPECT_FALSE(texts().contains(each)) << each.toStdString();
+}
+
+TEST_F(Seated, TheHeadLineCountsSeriesWhileLevelsRiseAndBlocksInTheTest) {
+    auto rising = testScreen(ScreenState::Feel);
+    rising.phase = "ascending";
+    rising.block = 2;
+    rising.blocks = 3;
+    rising.trial = rising.trials = 0;
+    for (const auto& words : ParticipantWords::builtIn()) {
+        window.setWords(words);
+        const auto heads = [&](const PilotScreen& screen) {
+            desk.show(screen);
+            QCoreApplication::processEvents();
+            QStringList said;
+            for (const auto* label : window.findChildren<QLabel*>()) said << label->text();
+            return said.join('|').toStdString();
+        };
+        const auto range = words.text("phase.range"), block = words.text("phase.block", {{"block", "2"}, {"of", "3"}});
+        EXPECT_THAT(heads(rising), testing::HasSubstr(range + "  2 / 3"));
+        EXPECT_THAT(heads(rising), testing::Not(testing::HasSubstr(block))) << "the test has not begun";
+        shot(window, ("participant-series-" + words.code()).c_str());
+        auto test = rising;
+        test.phase = "test";
+        EXPECT_THAT(heads(test), testing::HasSubstr(block));
     }
 }
 

@@ -46,8 +46,9 @@ protected:
               return Registry(std::move(drivers));
           }) {}
     /// Makes a study with one participant who has consented; `virtualSeed` nothing: a real person.
-    void make(std::optional<std::uint64_t> virtualSeed, Modality modality = Modality::Electrodes) {
+    void make(std::optional<std::uint64_t> virtualSeed, Modality modality = Modality::Electrodes, double gap_h = 20) {
         StudySettings settings;
+        settings.gapMin_h = gap_h;
         settings.modality = modality;
         settings.title = "Four conditions";
         settings.approval.reference = "EC-2026-17";
@@ -209,6 +210,43 @@ TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
     EXPECT_EQ(cell(0, 5), "complete");
     expectTheResultReopens(headline);
     expectABrokenRecordIsNamed();
+}
+
+TEST_F(StudyInTheWindow, ASessionThatWasStoppedForGoodOpensAgainWithItsResult) {
+    RecordProperty("hazard", "H8");
+    ASSERT_NO_FATAL_FAILURE(make(7, Modality::Electrodes, 0));
+    ASSERT_NO_FATAL_FAILURE(openIt());
+    const auto stopOnceBegun = [this](std::size_t files) {
+        ASSERT_IN_TIME(comesTrue([&] { return filesIn(place() / "sessions").size() >= files; }, 20'000));
+        ASSERT_IN_TIME(comesTrue(
+            [this] {
+                window.controller().stop("operator (STOP)");
+                return !pilot->running();
+            },
+            20'000));
+        click(*pilot->findChild<QPushButton*>("backFromResult"));
+        ASSERT_NO_FATAL_FAILURE(seeList());
+    };
+    ASSERT_NO_FATAL_FAILURE(start());
+    begin();
+    ASSERT_NO_FATAL_FAILURE(stopOnceBegun(1));
+    ASSERT_EQ(cell(0, 5), "interrupted, can continue");
+    ASSERT_NO_FATAL_FAILURE(start());
+    page().findChild<QRadioButton*>("endIt")->click();
+    begin();
+    ASSERT_NO_FATAL_FAILURE(stopOnceBegun(2));
+    ASSERT_EQ(cell(0, 5), "ended before its end");
+    pilot->findChild<QTableWidget*>("studySessions")->selectRow(0);
+    pilot->findChild<QLabel*>("pilotHeadline")->clear();
+    pilot->findChild<QLabel*>("pilotReason")->clear();
+    ASSERT_IN_TIME(comesTrue([this] { return showResult().isEnabled(); }));
+    click(showResult());
+    auto* result = pilot->findChild<gui::PilotResult*>();
+    ASSERT_IN_TIME(comesTrue([&] { return result->isVisible(); }, 20'000)) << said("studyTrouble");
+    EXPECT_THAT(said("pilotHeadline") + said("pilotReason"), HasSubstr("topped"));
+    EXPECT_THAT(said("pilotNote"), HasSubstr(place().string()));
+    EXPECT_FALSE(pilot->findChild<QPushButton*>("goOnWithSession")->isVisible()) << "it has ended";
+    looksRight(*pilot, "pilot-reopened-stopped", {QSize(1280, 720), QSize(1280, 720)}, &window);
 }
 
 TEST_F(StudyInTheWindow, WithNothingPluggedInAPersonsSessionCannotBegin) {

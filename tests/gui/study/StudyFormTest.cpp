@@ -115,6 +115,19 @@ TEST_F(StudyInThePage, ANewStudyIsMade) {
                                     {"approval.expires", "2090-12-31"},
                                     {"consent_version", "2"}})
         form->set(key, text);
+    auto* create = made->findChild<QPushButton*>("createStudy");
+    const auto* trouble = made->findChild<QLabel*>("newStudyTrouble");
+    EXPECT_TRUE(create->isEnabled());
+    form->set("gap_min_h", "-1");
+    EXPECT_FALSE(create->isEnabled());
+    for (const char* part : {"Between two sessions at least", "-1", "0 to 10000"})
+        EXPECT_THAT(trouble->text().remove(QChar(0x202f)).toStdString(), HasSubstr(part));
+    form->set("gap_min_h", "20,5");
+    EXPECT_TRUE(create->isEnabled()) << trouble->text().toStdString();
+    made->findChild<QLineEdit*>("newStudyFolder")->clear();
+    EXPECT_FALSE(create->isEnabled());
+    EXPECT_THAT(trouble->text().toStdString(), HasSubstr("folder"));
+    made->findChild<QLineEdit*>("newStudyFolder")->setText(folder());
     looksRight(page, "study-new", {QSize(1100, 640), QSize(1160, 640)});
     for (const auto* group : form->findChildren<gui::FieldForm*>()) {
         int below = 1000;
@@ -138,6 +151,7 @@ TEST_F(StudyInThePage, ANewStudyIsMade) {
     click(*go);
     ASSERT_IN_TIME(comesTrue([this] { return study.study() != nullptr; }));
     EXPECT_EQ(study.study()->settings().title, "Four conditions");
+    EXPECT_EQ(study.study()->settings().gapMin_h, 20.5);
     EXPECT_TRUE(study.study()->stillApproved());
     EXPECT_TRUE(page.list().isVisible());
 }

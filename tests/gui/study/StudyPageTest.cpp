@@ -4,6 +4,7 @@
 #include <QFileDialog>
 
 #include "app/gui/theme/ConfirmButton.h"
+#include "core/base/Random.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/study/OpenedStudy.h"
 #include "tests/study/StudySupport.h"
@@ -319,6 +320,107 @@ TEST_F(StudyPageTest, EveryKindOfNoteIsMadeInItsDialogAndTheParticularsAreShownA
     EXPECT_EQ(asks->findChild<QLineEdit*>("objectives")->text(), "a text");
     EXPECT_EQ(asks->findChild<QComboBox*>("electrode_shape")->currentData().toString(), "circular");
     asks->close();
+}
+
+/// Writes drawn texts into the fields of a dialog, right and wrong ones; returns those that are in a line.
+QStringList fillAtRandom(QDialog& asks, Random& random) {
+    constexpr const char* kTexts[] = {"",           "2",          "KL",  "a text", "34",     "34.5",
+                                      "1,000",      "0,5",        "16",  "999999", "-1",     "2020-02-02",
+                                      "2090-01-01", "2026-13-40", "nan", "P-7K3D", "unknown"};
+    QStringList typed;
+    for (auto* box : asks.findChildren<QComboBox*>()) {
+        const bool open = box->currentData().toString().isEmpty() && box->count() > 1;
+        if (box->isVisible() && random.below(4) < (open ? 3 : 1))
+            box->setCurrentIndex(
+                int(open ? 1 + random.below(std::size_t(box->count()) - 1) : random.below(std::size_t(box->count()))));
+    }
+    const auto lines = asks.findChildren<QLineEdit*>();
+    const double share = std::min(0.5, 2.0 / double(lines.size()));  // a long form is refused soon enough
+    for (auto* line : lines) {
+        if (!line->isVisible() || line->isReadOnly()) continue;
+        if (line->objectName() == "approval.reference" && random.below(4) > 0)
+            line->setText(QString("A%1").arg(random.below(100000)));
+        else if (line->objectName() == "what" && random.below(4) > 0)
+            line->setText("a text");
+        else if (random.uniform() < share)
+            line->setText(kTexts[random.below(std::size(kTexts))]);
+        typed << line->text();
+    }
+    return typed;
+}
+
+TEST_F(StudyPageTest, WhatTheStudyWouldRefuseDisablesTheButtonWithTheReasonAndNothingElseDoes) {
+    RecordProperty("hazard", "H11");
+    const auto code = enrol(false);
+    letLive(20);
+    Random random(49, "what is typed in a study's dialogs");
+    struct Opens {
+        const char *name, *button;
+        std::function<void()> by;
+    };
+    std::vector<Opens> all{{"enrolDialog", "enrolNow", [&] { press("enrol"); }},
+                           {"consentDialog", "noteConsent", [&] { press("consentOne"); }},
+                           {"adverseEventDialog", "noteEvent", [&] { choose("noteAdverseEvent"); }},
+                           {"amendDialog", "amendNow", [&] { choose("amendStudy"); }}};
+    for (const auto& kind : studyLogKinds())
+        all.push_back({"noteDialog", "noteIt", [&, key = kind.key] { choose(qPrintable(QString("note-") + key)); }});
+    std::map<std::string, std::pair<int, int>> counts;  // taken, refused
+    for (int round = 0; round < 72; ++round) {
+        const auto& [name, button, by] = all[std::size_t(round) % all.size()];
+        by();
+        auto* asks = dialog(name);
+        ASSERT_NE(asks, nullptr) << name;
+        const auto typed = fillAtRandom(*asks, random);
+        auto* act = asks->findChild<QPushButton*>(button);
+        const auto* trouble = asks->findChild<QLabel*>(QString(name).replace("Dialog", "Trouble"));
+        const auto before = study.study()->ledgerHead();
+        auto& [taken, refused] = counts[name];
+        if (!act->isEnabled()) {
+            ++refused;
+            EXPECT_TRUE(trouble->isVisible()) << name;
+            const auto why = trouble->text();
+            const bool names =
+                why.contains(u'“') || why.contains(u'"') || why.contains("note says nothing") || why.contains("own") ||
+                why.contains("are enrolled") ||
+                std::ranges::any_of(typed, [&](const QString& each) { return !each.isEmpty() && why.contains(each); });
+            EXPECT_TRUE(names) << name << ": " << why.toStdString();
+            click(*act);
+            EXPECT_EQ(study.study()->ledgerHead(), before) << why.toStdString();
+        } else {
+            ++taken;
+            click(*act);
+            EXPECT_NE(study.study()->ledgerHead(), before) << name << ": " << trouble->text().toStdString();
+        }
+        if (asks->isVisible()) asks->close();
+        letLive(5);
+        page.findChild<QTableWidget*>("participants")->selectRow(0);
+    }
+    for (const auto& [name, seen] : counts) {
+        EXPECT_GT(seen.first, 0) << name;
+        EXPECT_GT(seen.second, 0) << name;
+    }
+    EXPECT_TRUE(study.study()->find(code.toStdString()));
+}
+
+TEST_F(StudyPageTest, ADecimalCommaIsReadAndAValueOutOfRangeIsNamedWithItsRange) {
+    RecordProperty("hazard", "H12");
+    choose("amendStudy");
+    auto* asks = dialog("amendDialog");
+    ASSERT_NE(asks, nullptr);
+    asks->findChild<QLineEdit*>("approval.reference")->setText("A1");
+    auto* act = asks->findChild<QPushButton*>("amendNow");
+    EXPECT_TRUE(act->isEnabled());
+    asks->findChild<QLineEdit*>("cap_ma")->setText("15,5");
+    EXPECT_FALSE(act->isEnabled());
+    for (const char* part : {"Current at most", "15.5", "15 mA"})
+        EXPECT_THAT(said(*asks, "amendTrouble"), HasSubstr(part));
+    looksRight(*asks, "study-amend-refused", kDialog);
+    asks->findChild<QLineEdit*>("cap_ma")->setText("14,5");
+    asks->findChild<QLineEdit*>("electrode.area_cm2")->setText("5,5");
+    ASSERT_TRUE(act->isEnabled()) << said(*asks, "amendTrouble");
+    click(*act);
+    EXPECT_EQ(study.study()->settings().cap_mA, 14.5);
+    EXPECT_EQ(study.study()->settings().electrode.area.value(), 5.5);
 }
 
 TEST_F(StudyPageTest, AfterASeriousEventTheStudyIsReleasedByNameInTheWindow) {

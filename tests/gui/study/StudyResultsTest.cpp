@@ -1,4 +1,5 @@
 // The results of a study in the window: tables, figures, and where they are saved.
+#include <QComboBox>
 #include <QFileDialog>
 #include <QListWidget>
 
@@ -99,7 +100,7 @@ protected:
     void answer(const QString& path) {
         QFileDialog* asks = nullptr;
         ASSERT_IN_TIME(comesTrue([&] {
-            asks = results().findChild<QFileDialog*>();
+            asks = page.findChild<QFileDialog*>();
             return asks != nullptr && asks->isVisible();
         }));
         emit asks->fileSelected(path);
@@ -127,6 +128,63 @@ TEST_F(StudyResultsTest, EveryFigureIsShownAndLooksRight) {
     looksRight(page, "study-results-function", {QSize(1280, 720), QSize(1920, 1080)});
     click(*results().findChild<QPushButton*>("backFromResults"));
     EXPECT_TRUE(page.list().isVisible());
+}
+
+TEST_F(StudyResultsTest, TheBetterEncodingIsProposedForAnAmendmentOrAProfileAndNothingChangesUnasked) {
+    RecordProperty("hazard", "H11");
+    const auto before = study.study()->settings();
+    auto* use = results().findChild<QPushButton*>("useBetter");
+    auto part = nlohmann::json(toJson(studyFigures(SessionBasis::Person, recordOfThree()).value()));
+    const auto showWith = [&](const nlohmann::json& better, const char* basis) {
+        part["better"] = better;
+        part["basis"] = basis;
+        gui::StudyShown shown;
+        shown.parts = {part};
+        results().show(shown);
+    };
+    showWith(nullptr, "person");
+    EXPECT_FALSE(use->isEnabled()) << "it is not decided";
+    showWith("swapped", "virtual");
+    EXPECT_FALSE(use->isEnabled()) << "a model decides nothing for people";
+    showWith("swapped", "person");
+    ASSERT_TRUE(use->isEnabled());
+    click(*use);
+    auto* asks = dialog("useEncodingDialog");
+    ASSERT_NE(asks, nullptr);
+    EXPECT_THAT(asks->findChild<QLabel*>("useEncodingFound")->text().toStdString(),
+                HasSubstr(part["sentences"][0].get<std::string>()));
+    looksRight(*asks, "study-use-encoding", {QSize(), QSize(1000, 680)});
+    auto* where = asks->findChild<QComboBox*>("useEncodingWhere");
+    ASSERT_EQ(where->count(), 2);
+    where->setCurrentIndex(1);
+    click(*asks->findChild<QPushButton*>("useEncodingNow"));
+    const auto file = scratch.path() / "better.json";
+    answer(QString::fromStdString(file.string()));
+    ASSERT_IN_TIME(comesTrue([&] { return std::filesystem::exists(file); }));
+    const auto profile = loadProfile(file.string());
+    ASSERT_TRUE(profile) << profile.error().message;
+    EXPECT_EQ(profile->encoding.assignment, Assignment::Swapped);
+    auto back = *profile;
+    back.encoding.assignment = study.profile().encoding.assignment;
+    EXPECT_EQ(toJson(back), toJson(study.profile())) << "all else is the operator's";
+    EXPECT_THAT(said(), HasSubstr("amendment"));
+    EXPECT_EQ(study.study()->settings(), before);
+    letLive(20);
+    click(*use);
+    asks = dialog("useEncodingDialog");
+    ASSERT_NE(asks, nullptr);
+    click(*asks->findChild<QPushButton*>("useEncodingNow"));
+    auto* amends = dialog("amendDialog");
+    ASSERT_NE(amends, nullptr);
+    EXPECT_EQ(amends->findChild<QComboBox*>("encodings")->currentData().toString(), "swapped");
+    auto* act = amends->findChild<QPushButton*>("amendNow");
+    EXPECT_FALSE(act->isEnabled()) << "the committee's reference is the operator's to enter";
+    EXPECT_EQ(study.study()->settings(), before);
+    amends->findChild<QLineEdit*>("approval.reference")->setText("EC-2026-17 A1");
+    ASSERT_TRUE(act->isEnabled());
+    click(*act);
+    EXPECT_EQ(study.study()->settings().encodings, std::vector<std::string>{"swapped"});
+    EXPECT_EQ(study.study()->amendments().back().changed, std::vector<std::string>{"encodings"});
 }
 
 TEST_F(StudyResultsTest, FiguresAreSavedOutsideTheStudyAndTheStudyNotesIt) {
