@@ -8,6 +8,7 @@
 
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
+#include "app/gui/theme/ElectrodeBox.h"
 #include "app/gui/theme/EntryFields.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Text.h"
@@ -57,6 +58,9 @@ QString plain(const nlohmann::json& value) {
     if (value.is_number()) return QString::number(value.get<double>(), 'g', 10);
     return QString::fromStdString(dumpJson(value));
 }
+
+/// The parameters, of protocols, a profile and a study, that are the area of an electrode.
+constexpr std::string_view kElectrodeAreas[] = {"area", "electrode_area_cm2", "electrode.area_cm2"};
 
 /// Returns the value as a field shows it; empty for 0 if 0 has a meaning of its own.
 QString shown(const ProtocolParameter& parameter, const nlohmann::json& value) {
@@ -305,6 +309,9 @@ void FieldForm::addRow(Field& field) {
     line->setSpacing(fontMetrics().averageCharWidth());
     line->addWidget(field.range);
     stack->addLayout(line);
+    if (auto* area = qobject_cast<QLineEdit*>(field.editor);
+        area && std::ranges::count(kElectrodeAreas, parameter.name))
+        stack->addWidget(new ElectrodeBox(*area, column));
     field.trouble = new TroubleLine("trouble-" + QString::fromStdString(parameter.name), column);
     stack->addWidget(field.trouble);
     auto label = QString::fromStdString(parameter.label);

@@ -4,10 +4,13 @@
 #include <QFocusEvent>
 #include <QLabel>
 #include <QLineEdit>
+#include <QSettings>
 #include <QTest>
 #include <gtest/gtest.h>
+#include <map>
 
 #include "app/gui/theme/FieldForm.h"
+#include "core/base/Random.h"
 #include "tests/support/InTime.h"
 
 namespace tacto::test {
@@ -36,6 +39,54 @@ TEST(FieldForm, ADefaultThatWasLeftAloneIsTheScriptsWordToTheLastDigitAndBlank) 
     const auto chosen = form.read().value();
     EXPECT_EQ(chosen.given, (std::set<std::string>{"area", "file"}));
     EXPECT_EQ(chosen.parameters.at("area"), 5);
+}
+
+/// Types a text into a line as a person does, and leaves the line.
+void typeInto(QLineEdit& line, const QString& text) {
+    line.setFocus();
+    line.selectAll();
+    QTest::keyClicks(&line, text);
+    QTest::keyClick(&line, Qt::Key_Return);
+}
+
+TEST(FieldForm, AnElectrodesAreaIsRememberedWithItsNameInEveryForm) {
+    RecordProperty("hazard", "H9");
+    QSettings().remove("electrodeAreas");
+    QSettings().remove("electrode");
+    Random random(54, "electrodes");
+    const QStringList names{"Pad, 5 cm", "pad 5 cm", "Ring/steel", "Elektrode µ", "A", "AB"};
+    std::map<QString, QString> expected;
+    for (int step = 0; step < 60; ++step) {
+        const char* keys[] = {"area", "electrode_area_cm2", "electrode.area_cm2"};
+        const std::string key = keys[random.below(3)];
+        gui::FieldForm form;
+        form.show({gui::numberField(key.c_str(), "Area", "cm2", 0, 1000, 7, "")});
+        form.setVisible(true);
+        auto& area = *form.findChild<QLineEdit*>(QString::fromStdString(key));
+        auto& box = *form.findChild<QComboBox*>("electrode");
+        const auto& name = names[int(random.below(std::uint64_t(names.size())))];
+        const auto known = expected.find(name);
+        typeInto(*box.lineEdit(), name);
+        if (known != expected.end()) {
+            ASSERT_EQ(area.text(), known->second) << name.toStdString();
+            EXPECT_EQ(form.text(key), known->second);
+        }
+        expected.try_emplace(name, "7");  // what stood beside it when it was named
+        if (random.below(2) == 0) {
+            expected[name] = QString::number(double(1 + random.below(900)) / 10);
+            typeInto(area, expected[name]);
+        }
+        if (random.below(4) == 0) typeInto(area, random.below(2) == 0 ? "nonsense" : "-3");  // is kept with none
+        box.showPopup();
+        box.hidePopup();
+        ASSERT_EQ(box.count(), int(expected.size()));
+        gui::FieldForm next;
+        next.show({gui::numberField("area", "Area", "cm2", 0, 1000, expected[name].toDouble(), "")});
+        EXPECT_EQ(next.findChild<QComboBox*>("electrode")->currentText(), name) << "it is the one of this area";
+        next.set("area", "901");
+        EXPECT_EQ(next.findChild<QComboBox*>("electrode")->currentText(), "");
+    }
+    EXPECT_EQ(gui::FieldForm().findChild<QComboBox*>("electrode"), nullptr);
 }
 
 TEST(FieldForm, ADecimalCommaIsReadAndAnUncertainOneIsRefusedWithItsReason) {
