@@ -54,7 +54,8 @@ PilotPrompt severalPrompt(std::string name, std::string text, std::vector<Prompt
 
 PilotPrompt skinPrompt(const std::string& what, const std::string& words) {
     std::vector<PromptTarget> scores;
-    for (const auto& score : kSkinKeys) scores.push_back({std::string(score.text), std::string(score.text)});
+    for (const auto& score : kSkinKeys)
+        scores.push_back({std::string(score.text), fmt::format("{} {}", score.text, kSkinScores[score.value])});
     return choicePrompt(what, words, std::move(scores), PromptTo::Operator);
 }
 
@@ -153,12 +154,13 @@ Result<void> PilotCare::stopTest(PromptTo by) {
     const auto other = by == PromptTo::Participant ? PromptTo::Operator : PromptTo::Participant;
     std::optional<PilotStage::PressedStop> pressed;
     bool theirs = false, armed = true;
+    std::string before;  // why the operator is asked again
     for (int asked = 0; asked < kStopTries && !theirs;) {
         if (auto ready = stage_.arm(); !ready) return ready;
         const bool theirOwn = by == PromptTo::Participant;
-        auto prompt = goOnPrompt(
-            theirOwn ? stage_.words().text("stop-test.question") : "Press STOP now: the operator's is being tested.",
-            by);
+        auto prompt = goOnPrompt(theirOwn ? stage_.words().text("stop-test.question")
+                                          : before + "Press STOP now: the operator's is being tested.",
+                                 by);
         prompt.name = "stop-test";
         PilotScreen screen;  // the test itself begins: a stop from here on is the test's
         screen.phase = "checklist";
@@ -176,6 +178,7 @@ Result<void> PilotCare::stopTest(PromptTo by) {
         if (answered) pressed.reset();
         const bool own = pressed && pressed->participants == (by == PromptTo::Participant);
         theirs = own && armed;
+        before = pressed && !own ? "That was the participant's STOP. " : !armed ? "The output was off already. " : "";
         stage_.rest();
         nlohmann::json body{{"by", nameOf(by)}, {"pressed", theirs}, {"off_ms", theirs ? inMs(pressed->took) : kNaN}};
         if (pressed && !own) body["other"] = nameOf(other);
@@ -300,7 +303,7 @@ Result<void> PilotCare::skin(const std::string& moment) {
     stage_.rest();  // the electrodes or the massager may be taken off now
     int worst = 0;
     for (const auto& [what, words] :
-         {std::pair{"erythema", "Redness of the skin, 0 to 4"}, std::pair{"oedema", "Swelling of the skin, 0 to 4"}}) {
+         {std::pair{"erythema", "Redness of the skin"}, std::pair{"oedema", "Swelling of the skin"}}) {
         const auto said = stage_.ask(row::kSkin, moment + " " + what, skinPrompt(what, words));
         if (!said) return failure(said);
         const auto score = valueFor(kSkinKeys, textOr(*said, "key"));

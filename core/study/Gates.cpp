@@ -20,7 +20,7 @@ constexpr std::pair<const char*, const char*> kExclusionItems[] = {
     {"alcohol", "Did you have alcohol or sedatives today?"},
     {"allergy", "Did your skin ever react to gel or adhesive?"},
     {"age", "Are you under age?"},
-    {"hf", "Is short-wave or surgical high-frequency equipment within 1 m?"},
+    {"hf", "Is short-wave or surgical high-frequency equipment within 1 m?"},
 };
 
 constexpr auto kClockTolerance = std::chrono::minutes(5);

@@ -538,7 +538,7 @@ TEST(StudyReport, NoFigureOrTableIsOfPeopleAndOfSimulatedOnesTogether) {
 
 TEST(StudyReport, AStudyWithoutSessionsHasAReportToo) {
     const auto content = accepted(studyReport(StudyRecord()));
-    EXPECT_THAT(textOf(content), HasSubstr("Nothing is known: the study has no participants."));
+    EXPECT_THAT(textOf(content), HasSubstr("Nothing is known: no participant has a session with test trials."));
 }
 
 TEST(StudyReport, IsWrittenAsPdfAndHtml) {

@@ -97,6 +97,7 @@ void OperatorAsk::addChoices(const PilotPrompt& prompt) {
                            : prompt.kind == PromptKind::Hold ? tr("Held")
                                                              : qtext(prompt.targets[std::size_t(i)].text);
         auto* button = new ConfirmButton(words, body_);
+        if (std::size_t(i) < prompt.targets.size()) button->setObjectName(qtext(prompt.targets[std::size_t(i)].key));
         connect(button, &QPushButton::clicked, this, [this, prompt, scale, i] {
             PilotAnswer answer;
             if (scale)

@@ -191,6 +191,11 @@ std::optional<double> OperatorPage::waits_s() const {
     return std::max(0.0, std::ceil(toSeconds(*screen_.until - at_)));
 }
 
+QString OperatorPage::whereAndWaits() const {
+    const auto left = waits_s();
+    return left && *left > 0 ? tr("%1: %2 s left").arg(where()).arg(*left) : where();
+}
+
 /// Says what is waited for, and what the operator may know.
 void OperatorPage::showTold() {
     const bool mayKnow = !blind_ || screen_.operatorMayKnow;

@@ -36,6 +36,8 @@ public:
     void count(const PilotCounts& counts);
     /// Returns the heading: the present part of the session.
     [[nodiscard]] QString where() const { return where_->text(); }
+    /// Returns where the session is and how long it still waits: what the participant may read as well.
+    [[nodiscard]] QString whereAndWaits() const;
     [[nodiscard]] OperatorAsk& question() { return *ask_; }
     [[nodiscard]] SessionNotes& notes() { return *notes_; }
 

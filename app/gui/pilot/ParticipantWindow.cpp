@@ -136,6 +136,7 @@ void ParticipantWindow::showScreen(const PilotScreen& screen) {
     screen_ = screen;
     stopped_ = false;
     asking_ = false;
+    if (std::exchange(operatorsTest_, false)) judge();
     if (screen.state == ScreenState::Rest) face_->hold().hide();
     showState();
     repaint();  // drawn now: the session decides the moment of a change, not the next frame
@@ -143,8 +144,10 @@ void ParticipantWindow::showScreen(const PilotScreen& screen) {
 }
 
 void ParticipantWindow::ask(const PilotPrompt& prompt, quint64 id) {
+    operatorsTest_ = prompt.to == PromptTo::Operator && isStopTestPrompt(prompt);
     if (prompt.to == PromptTo::Operator) {
         asking_ = false;
+        judge();
         face_->say(qtext(words_.text("moment.title")), qtext(words_.text("moment.below")));
         emit changed();
         return;
@@ -357,7 +360,7 @@ void ParticipantWindow::judge() {
         why = inputGone_;
     else if (!isVisible())
         why = tr("the participant's window is not shown");
-    else if (stripOpen())
+    else if (stripOpen() && !operatorsTest_)  // the operator's STOP is in the strip, and its test needs the output on
         why = tr("the operator's strip is open on the participant's screen: F2 closes it");
     else if (!isActiveWindow())
         why = tr("keys do not reach the participant's window");

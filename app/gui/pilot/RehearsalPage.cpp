@@ -92,7 +92,8 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     connect(result_, &QPushButton::clicked, this, [this] { emit resultWanted(ended_); });
     auto* both = new QHBoxLayout;
     for (auto* button : {begin_, result_}) both->addWidget(button);
-    both->addStretch();
+    whyNot_ = makeLabel({}, {.name = "whyNotRehearse", .tone = Tone::Quiet, .wraps = true, .plain = true}, this);
+    both->addWidget(whyNot_, 1);
     foot->addLayout(both);
     connect(&folder_->line(), &QLineEdit::textChanged, this, &RehearsalPage::look);
     connect(offer_, &UnfinishedOffer::changed, this, &RehearsalPage::judge);
@@ -183,9 +184,14 @@ void RehearsalPage::judge() {
     form_->setFieldEnabled("rehearsalBlocks", !offer_->goesOn() && isWholeSession(*form_));
     const auto lacks = seats_->missing(person());
     const bool refused = sayRefused(*trouble_, *form_);
-    begin_->setEnabled(offer_->isSettled() && lacks.isEmpty() && !refused && !folder_->folder().isEmpty());
+    const auto why = !offer_->isSettled() ? tr("First choose what happens to the interrupted session.")
+                     : folder_->folder().isEmpty()
+                         ? tr("The folder is missing. A new one, or that of a rehearsal, is expected.")
+                         : lacks;
+    begin_->setEnabled(why.isEmpty() && !refused);
+    whyNot_->setText(why);
     begin_->setToolTip(
-        !lacks.isEmpty() ? lacks : tr("Opens both windows. Nothing is delivered before the checklist is answered."));
+        !why.isEmpty() ? why : tr("Opens both windows. Nothing is delivered before the checklist is answered."));
     begin_->setText(offer_->goesOn() ? tr("Go on with the rehearsal") : tr("Begin rehearsal"));
 }
 

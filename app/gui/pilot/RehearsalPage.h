@@ -55,6 +55,7 @@ private:
     std::unique_ptr<SeatRows> seats_;
     TroubleLine* trouble_;
     QPushButton* begin_ = nullptr;
+    QLabel* whyNot_ = nullptr;  ///< why no rehearsal can begin, beside the button
     QPushButton* result_ = nullptr;
 };
 

@@ -306,14 +306,14 @@ void SessionConduct::noteStop(const HeardStop& stop) {
 void SessionConduct::show(const PilotScreen& screen) {
     screen_ = screen;
     page_.show(screen);
-    if (strip_ != nullptr) strip_->setWhere(page_.where());
+    if (strip_ != nullptr) strip_->setWhere(page_.whereAndWaits());
     emit screenChanged(screen);
 }
 
 void SessionConduct::ask(const PilotPrompt& prompt, quint64 id) {
     if (prompt.name == kScreenPrompt) screenPrompt_ = id;
     page_.ask(prompt, id);
-    if (strip_ != nullptr) strip_->setWhere(page_.where());
+    if (strip_ != nullptr) strip_->setWhere(page_.whereAndWaits());
     emit asked(prompt);
     if (prompt.to == PromptTo::Participant) return;
     // On a single screen the question appears in the strip, where the operator can reach it.
@@ -329,6 +329,7 @@ void SessionConduct::refresh(const Telemetry& telemetry) {
     if (!running_) return;
     static_cast<void>(controller_.takeRunFeed());  // trials are discarded, as they name conditions
     page_.refresh(telemetry);
+    if (strip_ != nullptr && strip_->isVisible()) strip_->setWhere(page_.whereAndWaits());
     const bool faulted = telemetry.state == InterlockState::Faulted;
     if (faulted && !std::exchange(seenFault_, true)) {
         ++faults_;

@@ -2,6 +2,7 @@
 
 #include <QRadioButton>
 #include <QRandomGenerator>
+#include <QScrollBar>
 #include <algorithm>
 
 #include "app/gui/pilot/DeviceRows.h"
@@ -27,8 +28,8 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
       trouble_(new TroubleLine("sessionTrouble", this)) {
     setObjectName("sessionStart");
     auto* whole = columnIn(*this, 0);
-    auto* page = new ScrollingPage(this);
-    auto* inside = new QWidget(page->viewport());
+    page_ = new ScrollingPage(this);
+    auto* inside = new QWidget(page_->viewport());
     boundWidth(*inside, kStartWide);
     auto* column = columnIn(*inside, 12, {kPagePad, kPagePad, kPagePad, kPagePad});
     setTone(*about_, Tone::Quiet);
@@ -47,16 +48,17 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     body->addWidget(asks_, 1);
     column->addLayout(body);
     column->addStretch();
-    page->hold(inside);
-    whole->addWidget(page, 1);
+    page_->hold(inside);
+    whole->addWidget(page_, 1);
     trouble_->setContentsMargins(kPagePad, 0, kPagePad, 8);
     whole->addWidget(trouble_);
     auto* foot = addPageFoot(*whole, this);
     begin_->setIcon(icon("run", Ink::Primary));
     makePrimary(*begin_);
     auto* back = pageButton(tr("Back to the study"), "backToStudy", {}, this);
+    whyNot_ = makeLabel({}, {.name = "whyNotBegin", .tone = Tone::Quiet, .wraps = true, .plain = true}, this);
     for (auto* button : {begin_, back}) foot->addWidget(button);
-    foot->addStretch();
+    foot->addWidget(whyNot_, 1);
     connect(begin_, &QPushButton::clicked, this, &SessionStartPage::beginWanted);
     connect(back, &QPushButton::clicked, this, &SessionStartPage::backWanted);
     connect(offer_, &UnfinishedOffer::changed, this, &SessionStartPage::judge);
@@ -121,6 +123,8 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
                                   "anything else."));
     devices_->offer(study.settings(), !virtual_);
     judge();
+    if (auto* first = form_->findChild<QWidget*>("protocol"); first != nullptr) first->setFocus();
+    page_->verticalScrollBar()->setValue(0);
 }
 
 void SessionStartPage::chooseGoOn() { offer_->chooseGoOn(); }
@@ -152,13 +156,19 @@ void SessionStartPage::judge() {
     auto lacks = devices_->missing();
     if (lacks.isEmpty()) lacks = seats_->missing(!virtual_);
     const bool refused = sayRefused(*trouble_, *form_);
-    begin_->setEnabled(whole && chosen && lacks.isEmpty() && !refused);
-    begin_->setToolTip(!chosen            ? tr("First choose what happens to the interrupted session.")
-                       : !lacks.isEmpty() ? lacks
-                       : !whole           ? tr("%1 of %2 questions of the checklist are answered; each is needed.")
-                                      .arg(open)
-                                      .arg(checklist_->items().size())
-                                : tr("Every condition of the study is looked at first. Nothing is delivered before."));
+    const bool yes = !virtual_ && std::ranges::any_of(checklist_->answers(), &ExclusionAnswer::yes);
+    const auto why =
+        yes       ? tr("A question was answered with yes: there is no session today. The study keeps the answer.")
+        : !chosen ? tr("First choose what happens to the interrupted session.")
+        : !lacks.isEmpty() ? lacks
+        : !whole           ? tr("%1 of %2 questions of the checklist are answered; each is needed.")
+                       .arg(open)
+                       .arg(checklist_->items().size())
+                 : QString();
+    begin_->setEnabled(why.isEmpty() && !refused);
+    whyNot_->setText(why);
+    begin_->setToolTip(
+        !why.isEmpty() ? why : tr("Every condition of the study is looked at first. Nothing is delivered before."));
     begin_->setText(offer_->goesOn() ? tr("Go on with the session") : tr("Begin the session"));
 }
 

@@ -21,6 +21,7 @@ namespace tacto::gui {
 class DeviceRows;
 class DeviceWatch;
 class ExclusionChecklist;
+class ScrollingPage;
 class UnfinishedOffer;
 
 class SessionStartPage final : public QWidget {
@@ -66,7 +67,9 @@ private:
     QWidget* asks_ = nullptr;
     ExclusionChecklist* checklist_ = nullptr;
     TroubleLine* trouble_;
+    ScrollingPage* page_ = nullptr;
     QPushButton* begin_ = nullptr;
+    QLabel* whyNot_ = nullptr;  ///< why no session can begin, beside the button
 };
 
 /// The questions of the exclusion checklist, each answered by yes or no. No answer is preselected.

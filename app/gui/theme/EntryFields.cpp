@@ -14,6 +14,10 @@
 
 namespace tacto::gui {
 
+namespace {
+constexpr int kCalendarHigh = 240;
+}
+
 PathField::PathField(const QString& path, const QString& tip, QWidget* parent) : QLineEdit(parent) {
     connect(this, &QLineEdit::textChanged, this, [this, tip](const QString& text) {
         if (!hasFocus()) setCursorPosition(0);
@@ -59,6 +63,7 @@ DayField::DayField(const QString& name, const QString& meansEmpty, QWidget* pare
     auto* menu = new QMenu(button_);
     auto* calendar = new QCalendarWidget(menu);
     calendar->setVerticalHeaderFormat(QCalendarWidget::NoVerticalHeader);
+    calendar->setMinimumHeight(scaledPx(kCalendarHigh));  // its own hint cuts the names of the days
     auto* action = new QWidgetAction(menu);
     action->setDefaultWidget(calendar);
     menu->addAction(action);

@@ -211,7 +211,8 @@ FieldForm::Field FieldForm::makeField(const FormField& described) {
 void FieldForm::addLine(Field& field) {
     QLineEdit* line = nullptr;
     if (field.parameter.type == ParameterType::Date) {
-        auto* day = new DayField(QString::fromStdString(field.parameter.name), tr("not stated"), this);
+        auto* day = new DayField(QString::fromStdString(field.parameter.name),
+                                 field.parameter.needed.empty() ? tr("not stated") : tr("as 2027-03-01"), this);
         field.whole = day;
         line = &day->line();
     } else {

@@ -34,7 +34,7 @@ std::string leftOutText(std::span<const PersonLeftOut> leftOut) {
 
 std::string fewPeopleSentence(const FewPeople& found) {
     const std::size_t n = found.people.size(), left = found.leftOut.size();
-    if (n + left == 0) return "Nothing is known: the study has no participants.";
+    if (n + left == 0) return "Nothing is known: no participant has a session with test trials.";
     auto text = fmt::format(
         "{} of {} {} above chance (p < {:.2f} each; exact 95 % interval {:.0f} to {:.0f} %): ", found.aboveChance, n,
         n == 1 ? "was" : "were", kAboveChanceLevel, 100 * found.share.low, 100 * found.share.high);

@@ -75,7 +75,7 @@ TEST(FewPeople, WithoutPeopleNothingIsKnown) {
     const auto found = judgeFewPeople({});
     EXPECT_TRUE(std::isnan(found.prevalence.value));
     EXPECT_TRUE(std::isnan(found.accuracy.median));
-    EXPECT_EQ(fewPeopleSentence(found), "Nothing is known: the study has no participants.");
+    EXPECT_EQ(fewPeopleSentence(found), "Nothing is known: no participant has a session with test trials.");
 }
 
 }  // namespace

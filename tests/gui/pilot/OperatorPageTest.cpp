@@ -154,6 +154,7 @@ TEST_F(Operator8b, SaysWhatIsWaitedFor) {
     screen.until = toInstant(Seconds(160));
     page.show(screen);
     EXPECT_THAT(allText(), HasSubstr("Break: both go on when they want to: 59 s left"));
+    EXPECT_TRUE(page.whereAndWaits().endsWith(": 59 s left")) << "for the strip on the participant's screen";
 }
 
 TEST_F(Operator8b, SaysTheSameStepAsThePath) {

@@ -437,6 +437,27 @@ TEST_F(Seated, TheOperatorsStripHoldsThePresentationsBack) {
     EXPECT_FALSE(desk.hindrance());
 }
 
+/// After 10 s with an obstacle the output is off, and a STOP that is pressed then proves nothing.
+TEST_F(Seated, TheStripIsInTheWayOfNoTestOfTheOperatorsStop) {
+    RecordProperty("hazard", "H2");
+    window.setStrip(new QWidget);
+    auto prompt = goOnPrompt("Press STOP now.", PromptTo::Operator);
+    for (const bool test : {true, false}) {
+        prompt.name = test ? "stop-test" : "ready";
+        answer = std::async(std::launch::async, [this, prompt] { return desk.ask(prompt); });
+        ASSERT_IN_TIME(comesTrue([this] { return window.title() == "One moment, please."; }));
+        window.openStrip(true);
+        EXPECT_EQ(desk.hindrance().has_value(), !test);
+        desk.show(testScreen(ScreenState::Rest));
+        letLive(20);
+        EXPECT_TRUE(desk.hindrance()) << "after the test it is one as any other";
+        desk.leave();
+        EXPECT_FALSE(answered());
+        desk.begin(nullptr);
+        window.openStrip(false);
+    }
+}
+
 TEST_F(Seated, AKeyThatTheOperatorStillHoldsSaysSo) {
     RecordProperty("hazard", "H2");
     std::vector<std::string> said;

@@ -219,8 +219,13 @@ TEST_F(RehearsalInTheWindow, ALongFolderIsReadFromItsBeginningAndASeedIsTyped) {
         EXPECT_FALSE(begin->isEnabled()) << refused;
     }
     seed->setText("2");
+    const auto* whyNot = pilot->findChild<QLabel*>("whyNotRehearse");
+    place->clear();
+    EXPECT_FALSE(begin->isEnabled());
+    EXPECT_TRUE(whyNot->text().contains("folder")) << whyNot->text().toStdString();
     place->setText(QString::fromStdString((folder.path() / "study").string()));
     EXPECT_TRUE(begin->isEnabled());
+    EXPECT_TRUE(whyNot->text().isEmpty());
 }
 
 TEST_F(RehearsalInTheWindow, ANewOneHasAFolderOfItsOwnAndKeepsTheRest) {
@@ -286,7 +291,8 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     letLive(100);  // so that it does not count as the participant's press
     ASSERT_IN_TIME(testsIt()) << asked();
     QTest::mousePress(theirs->windowHandle(), Qt::LeftButton, {}, at);
-    ASSERT_IN_TIME(comesTrue([&] { return !pilot->running() || find<QPushButton>(*strip, "0") != nullptr; }, 20'000))
+    ASSERT_IN_TIME(
+        comesTrue([&] { return !pilot->running() || find<QPushButton>(*strip, "0 none") != nullptr; }, 20'000))
         << asked();
     ASSERT_TRUE(pilot->running()) << "a test of STOP ends no session: " << headline();
     letLive(150);
@@ -297,9 +303,9 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     looksRight(*pilot, "pilot-running", {QSize(1280, 720), QSize(1280, 720)}, &window);
     LargeBesideDocks(*this).fits("pilot-running");
     looksRight(*strip, "pilot-strip", {}, theirs);
-    click(*find<QPushButton>(*strip, "0"));
+    click(*find<QPushButton>(*strip, "0 none"));
     ASSERT_IN_TIME(comesTrue(
-        [&] { return !runs() || (strip->isVisible() && find<QPushButton>(*strip, "0") != nullptr); }, 20'000));
+        [&] { return !runs() || (strip->isVisible() && find<QPushButton>(*strip, "0 none") != nullptr); }, 20'000));
     ASSERT_IN_TIME(runs()) << headline();
     letLive(150);  // so that it does not count as the press of the test
     window.controller().stop("operator (STOP)");
@@ -519,7 +525,8 @@ TEST_F(RehearsalInTheWindow, AStopByTheirPadIsTheirsAndOneThatIsUnpluggedIsABrea
     ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && strip->question().open(); }, 20'000));
     letLive(150);
     plugged->press("pedal", 1);  // a press by the operator
-    ASSERT_IN_TIME(comesTrue([&] { return !pilot->running() || find<QPushButton>(*strip, "0") != nullptr; }, 20'000));
+    ASSERT_IN_TIME(
+        comesTrue([&] { return !pilot->running() || find<QPushButton>(*strip, "0 none") != nullptr; }, 20'000));
     ASSERT_TRUE(pilot->running()) << headline();
     letLive(150);
     window.controller().stop("operator (STOP)");

@@ -75,9 +75,12 @@ TEST_F(SessionStart, EveryQuestionIsAnsweredAndNoneBeforehand) {
     const auto* checklist = page.findChild<gui::ExclusionChecklist*>();
     EXPECT_TRUE(checklist->answers().empty());
     EXPECT_FALSE(begin().isEnabled());
+    const auto* whyNot = page.findChild<QLabel*>("whyNotBegin");
+    EXPECT_EQ(whyNot->text(), begin().toolTip()) << "in sight, not under the mouse alone";
     EXPECT_TRUE(page.start().exclusions.empty());
     answer("-no");
     EXPECT_TRUE(begin().isEnabled());
+    EXPECT_TRUE(whyNot->text().isEmpty());
     const auto all = page.start().exclusions;
     ASSERT_EQ(all.size(), exclusionItems().size());
     EXPECT_TRUE(exclusionGate(all));
@@ -85,6 +88,8 @@ TEST_F(SessionStart, EveryQuestionIsAnsweredAndNoneBeforehand) {
     const auto yes = exclusionGate(page.start().exclusions);
     ASSERT_FALSE(yes) << "the study's gate says what a yes means; the page hides none";
     EXPECT_EQ(yes.error().code, kGateRefused);
+    EXPECT_FALSE(begin().isEnabled());
+    EXPECT_TRUE(whyNot->text().contains("yes"));
     page.prepare(*study, who);
     EXPECT_TRUE(checklist->answers().empty()) << "each session asks anew";
     EXPECT_TRUE(page.start().confirmsCode) << "on their own screen";
