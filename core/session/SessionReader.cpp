@@ -162,9 +162,9 @@ struct SessionReader::State {
             data->bind(1, row.seq);
             if (const auto there = data->step(); !there || !*there) return;
             const std::span<const std::byte> parts[] = {data->blob(0), data->blob(1)};
-            if (!source.sealed() && crc32(parts) != chunk->crc) return;
-            if (unpack(row.seq, *chunk, info.stream.columns.size(), parts[0], parts[1], block))
-                going = visit(*chunk, block);
+            if (!unpack(row.seq, *chunk, info.stream.columns.size(), parts[0], parts[1], block)) return;
+            const auto crc = chunk->packing ? crc32(recordedBytes(block, !chunk->line)) : crc32(parts);
+            if (source.sealed() || crc == chunk->crc) going = visit(*chunk, block);
         });
     }
 
