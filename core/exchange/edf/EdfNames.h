@@ -32,6 +32,11 @@ inline constexpr std::string_view kAnnotations[] = {"EDF Annotations", "BDF Anno
 inline constexpr std::size_t kMaxSignals = 640;
 inline constexpr std::size_t kMaxRecordBytesEdf = 10 << 20, kMaxRecordBytesBdf = 15 << 20;
 
+// What is written.
+inline constexpr std::string_view kAbsentNote = "digital minimum = absent";  ///< the prefilter of each signal
+inline constexpr std::size_t kAnnotationBytes = 120;  ///< of an annotation signal in a record, as EDFlib has it
+inline constexpr std::size_t kMaxAnnotationSignals = 64, kMaxAnnotationText = 40;
+
 // Our own files: the equipment in the field of the recording. In them alone the lowest digital value means absent.
 inline constexpr std::string_view kEquipment = "Tactoscope_", kSimulatedEquipment = "_SIMULATED";
 

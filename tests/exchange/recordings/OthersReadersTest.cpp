@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/exchange/recordings/OpenRecording.h"
-#include "tests/support/OtherProgram.h"
+#include "tests/exchange/recordings/OthersPython.h"
 #include "tests/support/Support.h"
 #include "tests/support/Trials.h"
 
@@ -14,19 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-/// Returns a Python with these readers, installed once beside the build; nothing without network.
-std::optional<std::string> pythonWithReaders() {
-    std::error_code none;
-    const auto folder = fs::read_symlink("/proc/self/exe", none).parent_path().parent_path() / "exchange-python";
-    const auto python = "'" + (folder / "bin" / "python").string() + "'";
-    const auto make = fmt::format(
-        "flock '{0}.lock' sh -c \"{1} -c 'import pyxdf, pyedflib, edfio' || {{ python3 -m venv '{0}' && {1} -m pip "
-        "install --quiet --timeout 10 --retries 1 pyxdf==1.17.5 pyEDFlib==0.1.42 edfio==0.4.18; }}\" 2>&1",
-        folder.string(), python);
-    if (test::outputOf(make).second != 0) return std::nullopt;
-    return python;
-}
 
 Json jsonIn(const fs::path& file) {
     std::ifstream in(file);
@@ -38,8 +25,8 @@ constexpr int kSeed = 20261130;
 /// Makes random files and hands each with what others read in it to `compare`.
 template <class Compare>
 void compareWithOthers(const char* which, int files, Compare&& compare) {
-    const auto python = pythonWithReaders();
-    if (!python) GTEST_SKIP() << "no pyxdf, pyEDFlib and edfio: PyPI cannot be reached";
+    const auto python = test::pythonWithReaders();
+    if (!python) GTEST_SKIP() << test::kNoReaders;
     const test::ScratchDir folder;
     const auto script = test::sourceDir() / "tests/exchange/recordings/oracle.py";
     const auto [said, code] = test::outputOf(fmt::format("{} '{}' {} '{}' {} {} 2>&1", *python, script.string(), which,

@@ -1,0 +1,63 @@
+// EdfGrid.h - the common grid of an EDF file: how long a record is, and in which of its slots a sample lies.
+//
+// Thread-safety: pure functions; a SlotFinder has one owner.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace tacto::edf {
+
+/// Returns the duration of a record: the first of 1, 2, 4, 5, 8 and 10 s at which every rate gives whole samples, else
+/// the multiple of 10 ms up to 60 s with the least relative error. Rates are finite and above 0; `maxRecord` is the
+/// most samples in a record, and limits what is chosen in place of the first six.
+[[nodiscard]] double recordDuration_s(std::span<const double> rates_hz, double maxRecord);
+
+/// What the samples of a stream become on the grid.
+struct GridCounts {
+    std::uint64_t repeated = 0;  ///< slots filled by the sample before, where the clock slipped by one
+    std::uint64_t dropped = 0;   ///< samples whose slot a later one has, or that lie before the first slot or the last
+    double maxTimeError_s = 0;   ///< from a stamp to its slot
+};
+
+/// Finds the slot of each sample of a stream, in order.
+class SlotFinder {
+public:
+    /// Slot k is at k / slotRate_hz; `usualRate_hz` tells a gap from a slip.
+    SlotFinder(double slotRate_hz, double usualRate_hz) : slotRate_hz_(slotRate_hz), usualRate_hz_(usualRate_hz) {}
+
+    struct Place {
+        std::uint64_t slot;
+        bool slipped;  ///< the slot before it has no sample, without a gap: the sample before stands there too
+    };
+    /// Returns nothing for a sample that is dropped.
+    [[nodiscard]] std::optional<Place> next(double t_s);
+    [[nodiscard]] GridCounts counts() const;
+
+private:
+    double slotRate_hz_, usualRate_hz_;
+    std::optional<std::uint64_t> last_;
+    double last_s_ = 0, lastError_s_ = 0;  // of the last sample, which the next may replace
+    GridCounts counts_;
+};
+
+/// How the values of a signal stand in the file.
+struct Scale {
+    std::string physicalMin, physicalMax;  ///< decimals of at most 8 characters, as in the header
+    int digitalMin = 0, digitalMax = 0;    ///< the lowest means absent
+    bool exact = false;                    ///< whole numbers with a step of 1
+
+    [[nodiscard]] double step() const;  ///< between two values
+    /// Returns the nearest digital value; digitalMin for what is not finite.
+    [[nodiscard]] int digital(double value) const;
+
+    double low = 0, high = 0;  ///< the physical limits as numbers
+};
+
+/// Returns the scale for values from `least` to `most` (NaN: there are none) in 16 or 24 bits; nothing if the header
+/// cannot state their range.
+[[nodiscard]] std::optional<Scale> scaleFor(double least, double most, bool whole, int bits);
+
+}  // namespace tacto::edf
