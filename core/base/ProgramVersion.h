@@ -21,7 +21,7 @@ struct ProgramVersion {
     std::span<const Library> libraries;  ///< those with which the program was built
 };
 
-/// Of a program that has no packaging/ProgramVersion.cpp.in, such as a test: the release alone.
+/// Of a program that has no resources/packaging/ProgramVersion.cpp.in, such as a test: the release alone.
 [[nodiscard]] const ProgramVersion& programVersion() noexcept;
 
 }  // namespace tacto

@@ -4,9 +4,10 @@
 # documents. Programs find resources beside themselves (bin/../share/tactoscope): the tree can be moved.
 # `./dev package` makes the packages.
 
+find_package(pugixml REQUIRED)
 set(version_libraries "Qt=${Qt6_VERSION}" "Boost=${Boost_VERSION_STRING}" "Eigen=${Eigen3_VERSION}" "fmt=${fmt_VERSION}"
-    "nlohmann-json=${nlohmann_json_VERSION}" "zlib=${ZLIB_VERSION_STRING}")
-foreach(module FFTW SQLITE SODIUM USB HIDAPI SIGROK ZIP)
+    "nlohmann-json=${nlohmann_json_VERSION}" "pugixml=${pugixml_VERSION}" "zlib=${ZLIB_VERSION_STRING}")
+foreach(module FFTW SQLITE SODIUM USB HIDAPI SIGROK SNDFILE HDF5 ZIP ZSTD)
     list(APPEND version_libraries "${${module}_MODULE_NAME}=${${module}_VERSION}")
 endforeach()
 # Asked of git at each build; only this small file and the programs' links follow a commit.
@@ -27,10 +28,8 @@ foreach(program ${programs})
     target_link_options(${program} PRIVATE -pie)
 endforeach()
 
-set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
-    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 install(TARGETS ${programs} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(PROGRAMS ${PROJECT_SOURCE_DIR}/packaging/install-rules DESTINATION ${CMAKE_INSTALL_BINDIR}
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/resources/packaging/install-rules DESTINATION ${CMAKE_INSTALL_BINDIR}
         RENAME tactoscope-install-rules)
 # Icons are built in; licences stand in copyright.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/resources/ DESTINATION ${CMAKE_INSTALL_DATADIR}/tactoscope
@@ -57,7 +56,6 @@ tried on emulated devices only.")
 set(CPACK_GENERATOR DEB TGZ)
 set(CPACK_PACKAGE_DIRECTORY ${CMAKE_BINARY_DIR}/../package)
 set(CPACK_STRIP_FILES ON)
-set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS ${CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)

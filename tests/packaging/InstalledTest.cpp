@@ -21,7 +21,8 @@ protected:
     static void SetUpTestSuite() {
         folder_ = std::make_unique<ScratchDir>();
         const auto built = folder_->path() / "built";
-        const auto [said, code] = outputOf("cmake --install " TACTO_BUILD " --strip --prefix " + built.string());
+        const auto [said, code] =
+            outputOf("umask 022; cmake --install " TACTO_BUILD " --strip --prefix " + built.string());
         ASSERT_EQ(code, 0) << said;
         fs::create_directory(folder_->path() / "a folder");
         fs::rename(built, root());
@@ -119,6 +120,11 @@ TEST_F(Installed, ADesktopAcceptsWhatItIsTold) {
                                    id + ".metainfo.xml'");
         EXPECT_EQ(said.second, 0) << said.first;
     }
+}
+
+TEST_F(Installed, TheGuideLiesWhereDocumentsDo) {
+    EXPECT_THAT(text("share/doc/tactoscope/guide/index.html"), HasSubstr("<html"));
+    EXPECT_THAT(text("share/doc/tactoscope/copyright"), HasSubstr("License: GPL-3.0-or-later"));
 }
 
 TEST_F(Installed, EveryProgramHasAManPage) {
