@@ -19,7 +19,7 @@ struct ComputedTransitions {
     TransitionReport report;
     TransitionMap map;
     Verdict verdict = Verdict::Indeterminate;
-    std::vector<std::string> reasons;  ///< one sentence for each step that is too large
+    std::vector<std::string> reasons = {};  ///< one sentence for each step that is too large
 };
 
 /// Errors: as sweepTransitions().
