@@ -71,6 +71,9 @@ constexpr std::pair<const char*, const char*> kTriedByAnother[] = {
     {"ReportView", "where to save a report: the same question as for a plot"},
     {"StudyResults", "where to save a figure: the same question as for a plot"},
     {"StudyResults", "where to save all figures: the same question as for a plot"},
+    {"StudyResults", "where to save a new profile: the same question as for a plot"},
+    {"StudyResults", "which encoding to use: the same frame as for a participant who leaves"},
+    {"StudyResults", "an amendment with that encoding: the same dialog as for any amendment"},
     {"TableText", "where to save a table: the same question as for a plot"},
     {"TableText", "that a table was not saved: the same box as for a plot"}};
 
