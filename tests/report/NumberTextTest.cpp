@@ -1,11 +1,13 @@
 #include <QFontMetricsF>
 #include <QJsonObject>
+#include <QRegularExpression>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <random>
 
 #include "app/report/Fonts.h"
 #include "app/report/NumberText.h"
+#include "core/base/QuantityText.h"
 
 namespace tacto {
 namespace {
@@ -20,6 +22,24 @@ TEST(NumberText, UsesEngineeringPrefixesAndFourDigits) {
     EXPECT_EQ(plain(quantityText(0.25, "W/cm2", 3)), "250 mW/cm²");
     EXPECT_EQ(plain(quantityText(1500, "ohm", 3)), "1.50 kΩ");
     EXPECT_EQ(plain(quantityText(0.8, "uC", 3)), "800 nC");
+}
+
+TEST(NumberText, ZeroHasNoSignHoweverItIsWritten) {
+    std::mt19937 random(49);
+    std::uniform_real_distribution<double> exponent(-12, 0);
+    for (int i = 0; i < 2000; ++i) {
+        const double tiny = i % 10 == 0 ? -0.0 : -std::pow(10.0, exponent(random));
+        for (const char* unit : {"", "mA", "%", "bit", "ohm"}) {
+            const auto u = std::pow(10.0, exponent(random));
+            for (const auto& text :
+                 {quantityText(tiny, unit), quantityText(tiny, u, unit), spreadText(tiny, u, unit),
+                  uncertainText(tiny, u, unit), settingText(tiny, unit), toleranceText(tiny, unit),
+                  intervalText({tiny, tiny - u, u}, unit), proportionText({tiny, tiny, u}),
+                  cellText(QJsonValue(tiny), unit), QString::fromStdString(decimalText(tiny, i % 5))})
+                EXPECT_FALSE(text.contains(QRegularExpression("[-\u2212]0+([.]0+)?(?![0-9.])")))
+                    << plain(text) << " of " << tiny;
+        }
+    }
 }
 
 TEST(NumberText, ATolerancesDigitsAreThoseThatAreKnown) {

@@ -27,7 +27,7 @@ using Json = nlohmann::json;
     if (exponent >= digits && exponent < 6) return fmt::format("{:.0f}", *parseNumber(scientific));
     if (exponent < -6 || exponent >= digits)
         return fmt::format("{}e{:+}", scientific.substr(0, scientific.find('e')), exponent);
-    return fmt::format("{:.{}f}", value, digits - 1 - exponent);
+    return decimalText(value, digits - 1 - exponent);
 }
 
 /// Returns an empty list if it is missing or null.
