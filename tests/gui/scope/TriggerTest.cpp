@@ -76,8 +76,12 @@ protected:
 
 TEST_F(Trigger, EveryKindHasTheFieldsOfItsDescriptionWithUnitAndRange) {
     showTwoPulses();
+    letLive(50);
+    const int wide = scope.screen().width();
     for (const auto& kind : triggerKinds()) {
         chooseKind(scope, kind.kind);
+        letLive(50);
+        EXPECT_EQ(scope.screen().width(), wide) << "the screen stays as it is";
         EXPECT_EQ(panel().trigger().kind, kind.kind);
         for (const auto& field : kind.fields) {
             const auto* line = panel().findChild<QLineEdit*>(QString::fromUtf8(field.key.data()));

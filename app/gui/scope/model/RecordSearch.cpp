@@ -28,7 +28,10 @@ void RecordSearch::found(int step, std::vector<double> places) {
 
 void RecordSearch::move(int step) {
     const auto count = std::ssize(places_);
-    if (count == 0) return emit said(tr("Nothing in this record matches the trigger set here."));
+    if (count == 0) {
+        model_.markTrigger({});
+        return emit said(tr("Nothing in this record matches the trigger set here."));
+    }
     const auto& record = *model_.shown()->capture;
     const auto timeOf = [&](double place) { return record.start_s + place / record.rate_hz - model_.zero_s(); };
     const auto& view = model_.viewport();

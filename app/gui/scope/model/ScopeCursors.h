@@ -104,7 +104,7 @@ public:
     bool dragLevel(bool other, double height, const LaneScale& scale, const QString& unit);
     bool dragMoment(double time_s, double length_s);
     void forgetMoment() { moment_s_.reset(); }
-    void setMoment(double time_s) { moment_s_ = time_s; }
+    void setMoment(std::optional<double> time_s) { moment_s_ = time_s; }
     /// Ends a drag. Returns the fraction that the user chose.
     std::optional<double> drop(double length_s);
 

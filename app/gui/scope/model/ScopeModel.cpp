@@ -395,7 +395,7 @@ void ScopeModel::dragTriggerMoment(double time_s) {
     if (shown() && trigger_.dragMoment(time_s, shown()->length_s())) emit overlayChanged();
 }
 
-void ScopeModel::markTrigger(double time_s) {
+void ScopeModel::markTrigger(std::optional<double> time_s) {
     trigger_.setMoment(time_s);
     emit overlayChanged();
 }

@@ -124,8 +124,8 @@ public:
     void dragTriggerLevel(double height, bool other = false);  ///< see ScopeTrigger::dragLevel()
     void dragTriggerMoment(double time_s);
     void dropTrigger();
-    /// Shows the trigger at this time until another capture is shown.
-    void markTrigger(double time_s);
+    /// Shows the trigger at this time until another capture is shown; nothing: where it was before.
+    void markTrigger(std::optional<double> time_s);
 
 signals:
     void tracesChanged();  ///< the lanes or their contents changed; viewChanged() follows

@@ -88,6 +88,7 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
     form->addRow(tr("Trigger"), kind_);
     form->addRow(tr("Trigger on"), source_);
     form->addRow(tr("Level"), level_);
+    fields_->setMinimumWidth(1);  // another kind of trigger must not widen the column and shrink the screen
     form->addRow(fields_);
     auto* find = new QWidget(this);
     auto* steps = rowIn(*find);

@@ -80,15 +80,16 @@ QSizeF TimeFlags::sizeOf(const OverlayState::Flag& flag) const {
     return {std::max<double>(width + 2 * kFlagPadding, scaledPx(kFlagWidth)), line + kFlagPadding / 2 + rows};
 }
 
+double TimeFlags::belowTheMark() const { return plane_.area().top() + QFontMetricsF(plane_.font()).height() * 1.6; }
+
 std::vector<QRectF> TimeFlags::boxes() const {
     std::vector<QRectF> boxes;
     if (state_.flags.size() != 2) return boxes;
     const auto a = plane_.area();
     const bool ordered = state_.timeCursors_s[0] <= state_.timeCursors_s[1];
-    const double top = a.top() + QFontMetricsF(plane_.font()).height() * 1.6;  // below the trigger's mark
+    const double top = belowTheMark();
     const QRectF room(a.left(), top, a.width(), a.bottom() - top);
     auto drawn = drawnBoxes();
-    drawn.push_back(spanBox(drawn));
     for (std::size_t i = 0; i < 2; ++i) {
         const auto size = sizeOf(state_.flags[i]);
         const double at = plane_.x(state_.timeCursors_s[i]);
@@ -122,12 +123,14 @@ std::vector<QRectF> TimeFlags::drawnBoxes() const {
     return boxes;
 }
 
-QRectF TimeFlags::spanBox(const std::vector<QRectF>& drawn) const {
+QRectF TimeFlags::spanBox(const std::vector<QRectF>& flags) const {
+    auto drawn = drawnBoxes();
+    drawn.insert(drawn.end(), flags.begin(), flags.end());
     const auto a = plane_.area();
     const auto within = [&](double key_s) { return std::clamp(plane_.x(key_s), a.left(), a.right()); };
     const double middle = (within(state_.timeCursors_s[0]) + within(state_.timeCursors_s[1])) / 2;
     const auto box = plane_.tagBox(QPointF(middle, std::round(a.center().y())), state_.timeSpan);
-    return atClearHeight(box, a.adjusted(0, a.height() / 4, 0, -a.height() / 4), drawn);
+    return atClearHeight(box, a, drawn);
 }
 
 void TimeFlags::drawFlag(QCPPainter& painter, const QRectF& box, const OverlayState::Flag& flag, bool focused) const {
@@ -163,13 +166,18 @@ void TimeFlags::draw(QCPPainter& painter) const {
     for (int i = 0; i < 2; ++i) {
         const double at = plane_.x(state_.timeCursors_s[static_cast<std::size_t>(i)]);
         if (at < a.left() || at > a.right()) continue;
-        plane_.drawLine(painter, QLineF(at, a.top(), at, a.bottom()), state_.focusedCursor == i ? c.text : c.quiet,
-                        Qt::DashLine);
+        // Not through the letter of the trigger's mark.
+        const bool marked = state_.trigger && state_.trigger->moment_s &&
+                            plane_.pennant(Qt::TopEdge, plane_.x(*state_.trigger->moment_s), "T")
+                                .box.contains(QPointF(at, a.top() + 1));
+        plane_.drawLine(painter, QLineF(at, marked ? belowTheMark() : a.top(), at, a.bottom()),
+                        state_.focusedCursor == i ? c.text : c.quiet, Qt::DashLine);
     }
     const auto [first, last] = std::minmax(state_.timeCursors_s[0], state_.timeCursors_s[1]);
     const double from = std::clamp(plane_.x(first), a.left(), a.right());
     const double to = std::clamp(plane_.x(last), a.left(), a.right());
-    const auto span = spanBox(drawnBoxes());
+    const auto placed = boxes();
+    const auto span = spanBox(placed);
     const double half = std::round(span.center().y());
     plane_.drawLine(painter, QLineF(from, half, to, half), c.text, Qt::SolidLine);
     for (const auto& [end, inwards] : {std::pair(from, kArrow), std::pair(to, -kArrow)}) {
@@ -177,7 +185,6 @@ void TimeFlags::draw(QCPPainter& painter) const {
         plane_.drawLine(painter, QLineF(end, half, end + inwards, half + kArrow / 2), c.text, Qt::SolidLine);
     }
     plane_.drawTag(painter, span.center(), state_.timeSpan, c.text);
-    const auto placed = boxes();
     for (std::size_t i = 0; i < placed.size(); ++i) {
         drawFlag(painter, placed[i], state_.flags[i], state_.focusedCursor == static_cast<int>(i));
     }

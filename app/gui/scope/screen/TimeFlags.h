@@ -22,8 +22,9 @@ public:
 private:
     /// The pixels that the traces cover.
     [[nodiscard]] std::vector<QRectF> drawnBoxes() const;
-    /// The place of the text between the time cursors.
-    [[nodiscard]] QRectF spanBox(const std::vector<QRectF>& drawn) const;
+    /// The place of the text between the time cursors, beside the flags.
+    [[nodiscard]] QRectF spanBox(const std::vector<QRectF>& flags) const;
+    [[nodiscard]] double belowTheMark() const;  ///< the trigger's mark at the top of the screen
     [[nodiscard]] QSizeF sizeOf(const OverlayState::Flag& flag) const;
     void drawFlag(QCPPainter& painter, const QRectF& box, const OverlayState::Flag& flag, bool focused) const;
 
