@@ -1,5 +1,6 @@
 // Tests the oscilloscope if things go wrong (no trigger, no oscilloscope), and its figures for other workspaces.
 #include <QLabel>
+#include <QPointer>
 #include <QPushButton>
 #include <QScrollBar>
 #include <QToolButton>
@@ -265,6 +266,26 @@ TEST_F(Scope, TakesNoUntriggeredRecordsWhileNothingShowsThem) {
     scope.show();
     const int then = untriggered;
     ASSERT_IN_TIME(comes([&] { return untriggered >= then + 2; }));
+}
+
+TEST_F(Scope, TheSummaryOfARunLaysItsRowsOnceAndNotForEachTrain) {
+    gui::MeasurementSummary summary;
+    summary.show();
+    const auto label = [&] { return find<QLabel>(summary, "Amplitude of Voltage"); };
+    summary.measure(std::make_shared<const Capture>(twoPulses(1, 40)));
+    ASSERT_IN_TIME(comesTrue([&] { return label() != nullptr && label()->text().startsWith("40"); }));
+    const QPointer<QLabel> first(label());
+    for (const double volts : {30.0, 20.0, 10.0}) {
+        summary.measure(std::make_shared<const Capture>(twoPulses(1, volts)));
+        ASSERT_IN_TIME(
+            comesTrue([&] { return label() != nullptr && label()->text().startsWith(QString::number(volts)); }));
+        EXPECT_EQ(label(), first) << volts;
+    }
+    auto turned = twoPulses(1, 45);
+    std::swap(turned.channels[0], turned.channels[1]);
+    summary.measure(std::make_shared<const Capture>(std::move(turned)));
+    ASSERT_IN_TIME(comesTrue([&] { return label() != nullptr && label()->text().startsWith("45"); }))
+        << "channels in another order have rows of their own";
 }
 
 TEST_F(Scope, OthersAreFedThoughTheOscilloscopeIsNotVisible) {

@@ -123,13 +123,17 @@ void MeasurementSummary::take(const ShownPtr& shown) {
     }
     const bool sameSource = shown_ && shown_->source == shown->source;
     if (!sameSource || !shown->source.isEmpty()) statistics_.clear();
-    const auto before = statistics_.channels().size();
     quietSince_ = false;
     shown_ = shown;
     since_.start();
     statistics_.add(*shown);
-    const bool begins = statistics_.captures() == 1;  // the first capture may have its channels in another order
-    begins || before != statistics_.channels().size() ? lay() : fill();
+    channelsNow() != laid_ ? lay() : fill();
+}
+
+QStringList MeasurementSummary::channelsNow() const {
+    QStringList all;
+    for (const auto& channel : statistics_.channels()) all << channel.letter + ' ' + channel.name;
+    return all;
 }
 
 void MeasurementSummary::measure(std::shared_ptr<const Capture> capture) {
@@ -154,6 +158,7 @@ void MeasurementSummary::lay() {
     delete rows_;
     figures_.clear();
     quiet_.clear();
+    laid_ = channelsNow();
     rows_ = new QWidget(this);
     grid_ = layoutIn<QGridLayout>(*rows_, -1, {});
     grid_->setHorizontalSpacing(scaledPx(8));

@@ -54,6 +54,7 @@ private:
         QLabel* label = nullptr;
     };
     void lay();
+    [[nodiscard]] QStringList channelsNow() const;
     void layRow(Reading reading);
     /// True if the figures stand below the name of the reading, in lines of inLine() channels.
     [[nodiscard]] bool below() const;
@@ -81,6 +82,7 @@ private:
     QLabel* head_;
     QVBoxLayout* column_;
     QWidget* rows_ = nullptr;  // rebuilt when the channels, the chosen readings or the unfolded row change
+    QStringList laid_;         // channels of the present rows, in their order
     QGridLayout* grid_ = nullptr;
     std::vector<Figure> figures_;
     std::vector<QLabel*> quiet_;
