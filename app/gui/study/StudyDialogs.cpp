@@ -318,6 +318,7 @@ QDialog* consentDialog(OpenStudy& study, const QString& code, QWidget* parent) {
         textField("by", tr("Investigator’s initials"), {}, tr("The investigator’s initials, not the participant’s."))};
     for (auto& field : fields) field.parameter.needed = tr("no session can begin").toStdString();
     auto* form = asks->ask(fields);
+    if (auto* by = form->findChild<QLineEdit*>("by"); by != nullptr) by->setFocus();  // the others are filled in
     const auto act = [=](Study& into) -> Result<void> {
         return into.consent(
             code.toStdString(),

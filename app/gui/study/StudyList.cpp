@@ -1,9 +1,10 @@
 #include "app/gui/study/StudyList.h"
 
-#include <QCoreApplication>
+#include <QApplication>
 #include <QDateTime>
 #include <QFileInfo>
 #include <QMenu>
+#include <QSignalBlocker>
 #include <algorithm>
 #include <utility>
 
@@ -45,6 +46,12 @@ QString consentWords(const Study& study, const Participant& participant) {
     const auto& last = participant.consents.back();
     const auto words = QObject::tr("version %1, %2").arg(qtext(last.version), qtext(dateText(last.date)));
     return study.consented(participant) ? words : "⚠ " + words;
+}
+
+/// Returns the code in the chosen row; empty if none is chosen.
+QString chosenIn(const PageTable& participants) {
+    const int row = participants.chosenRow();
+    return row < 0 ? QString() : participants.item(row, 0)->text();
 }
 
 }  // namespace
@@ -90,8 +97,7 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
     for (QWidget* each : std::initializer_list<QWidget*>{participants_, withdrawn_, ofOneRow_, sessions_})
         column->addWidget(each);
     connect(participants_, &QTableWidget::itemSelectionChanged, this, [this] {
-        const int row = participants_->chosenRow();
-        code_ = row < 0 ? QString() : participants_->item(row, 0)->text();
+        code_ = chosenIn(*participants_);
         judge();
     });
     column->addStretch();
@@ -211,16 +217,21 @@ QWidget* StudyList::buildFoot() {
         openDialog(exportDialog(
             study_, [this](const BidsWith& with) { askForExport(with); }, this));
     });
+    const auto noteBy = [this](QDialog* asks) {
+        connect(asks, &QDialog::accepted, this,
+                [this, what = asks->windowTitle()] { say(tr("Noted: %1.").arg(what), false); });
+        openDialog(asks);
+    };
     addAction(*note, tr("An amendment of the committee…"), "amendStudy",
-              [this] { openDialog(amendDialog(study_, this)); });
+              [=, this] { noteBy(amendDialog(study_, this)); });
     addAction(*note, tr("An adverse event…"), "noteAdverseEvent",
-              [this] { openDialog(adverseEventDialog(study_, code_, this)); });
+              [=, this] { noteBy(adverseEventDialog(study_, code_, this)); });
     addAction(*note, tr("The day after a session…"), "noteNextDay",
-              [this] { openDialog(nextDayDialog(study_, code_, this)); });
+              [=, this] { noteBy(nextDayDialog(study_, code_, this)); });
     for (const auto& kind : studyLogKinds()) {
         const auto title = QCoreApplication::translate("StudyLog", kind.title);
         addAction(*note, title + "…", qPrintable("note-" + QString(kind.key)),
-                  [this, &kind] { openDialog(noteDialog(study_, kind, this)); });
+                  [=, this, &kind] { noteBy(noteDialog(study_, kind, this)); });
     }
     release_ = addAction(*note, tr("Release after a serious event…"), "releaseStudy",
                          [this] { openDialog(releaseDialog(study_, this)); });
@@ -284,16 +295,21 @@ void StudyList::showTables(const Study& study) {
     goBack_->setVisible(study.lossOfGoingBack().has_value());
     if (!study.stillApproved()) sayWhatHinders();
     const auto people = participantRows(study);
-    const auto before = std::exchange(code_, QString());
-    participants_->show({{"Code", "code"},
-                         {"Who", "who"},
-                         {"Group", "group"},
-                         {"State", "state"},
-                         {"Sessions", "sessions", ResultColumn::As::Number},
-                         {"Consent", "consent"}},
-                        people);
-    choose(before);
-    if (code_.isEmpty() && participants_->rowCount() > 0) participants_->selectRow(participants_->rowCount() - 1);
+    {
+        const QSignalBlocker asOne(participants_);  // the buttons for one participant keep the focus
+        participants_->show({{"Code", "code"},
+                             {"Who", "who"},
+                             {"Group", "group"},
+                             {"State", "state"},
+                             {"Sessions", "sessions", ResultColumn::As::Number},
+                             {"Consent", "consent"}},
+                            people);
+        participants_->clearSelection();
+        choose(code_);
+        if (participants_->chosenRow() < 0 && participants_->rowCount() > 0)
+            participants_->selectRow(participants_->rowCount() - 1);
+    }
+    code_ = chosenIn(*participants_);
     const auto gone = std::ranges::count(study.participants(), ParticipantState::Withdrawn, &Participant::state);
     withdrawn_->setText(people.empty() && gone == 0 ? tr("No participant is enrolled. Enrol one first.")
                         : gone == 0                 ? QString()
@@ -308,9 +324,14 @@ void StudyList::showTables(const Study& study) {
 void StudyList::judge() {
     const auto* study = study_.study();
     const bool there = study != nullptr;
+    // A button that is disabled for a while loses the focus, perhaps to STOP.
+    auto* focus = QApplication::focusWidget();
+    const bool ours = focus != nullptr && (isAncestorOf(focus) || foot_->isAncestorOf(focus));
+    if (!there && ours && focus_ == nullptr) focus_ = focus;
     for (auto* each : all_) each->setEnabled(there);
     for (auto* each : ofOne_) each->setEnabled(there && !code_.isEmpty());
     sessions_->setReadable(there);
+    if (there && focus_ != nullptr) std::exchange(focus_, nullptr)->setFocus();
 }
 
 /// Returns the record in which a signature of the report is noted: that of the last session that it tells of.
@@ -378,7 +399,8 @@ void StudyList::changePassphrase() {
 void StudyList::askForExport(const BidsWith& with) {
     FileQuestion question{.title = tr("A new or empty folder for the results, outside the study"),
                           .wants = FileQuestion::Wants::NewFolder,
-                          .folder = QFileInfo(study_.folder()).absolutePath()};
+                          .folder = QFileInfo(study_.folder()).absolutePath(),
+                          .name = QFileInfo(study_.folder()).fileName() + "-bids"};
     askForFile(*this, question, [this, with](const QString& place) {
         say(tr("The results are being written…"), false);
         study_.exportBids(place, with);

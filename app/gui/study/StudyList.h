@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QLabel>
+#include <QPointer>
 #include <QPushButton>
 #include <QString>
 #include <QWidget>
@@ -72,6 +73,7 @@ private:
     QAction* passphrase_ = nullptr;
     QAction* goBack_ = nullptr;  ///< shown if the ledger is older than the newest known
     QWidget* ofOneRow_ = nullptr;
+    QPointer<QWidget> focus_;  ///< what had the focus before the study was busy
 };
 
 /// The sessions of a study as a table, with a button that shows the result of a complete session.

@@ -93,6 +93,7 @@ TEST_F(StudyPageTest, EnrollingLeadsToTheConsentOfThatParticipantAndEnrolsOnce) 
     auto* consents = dialog("consentDialog");
     ASSERT_NE(consents, nullptr);
     EXPECT_EQ(consents->windowTitle(), "Consent of " + code);
+    EXPECT_EQ(consents->focusWidget()->objectName(), "by") << "the other fields are filled in";
     EXPECT_EQ(study.study()->participants().size(), 2U);
     consents->findChild<QLineEdit*>("by")->setText("KL");
     QTest::keyClick(consents->findChild<QLineEdit*>("by"), Qt::Key_Return);
@@ -100,6 +101,35 @@ TEST_F(StudyPageTest, EnrollingLeadsToTheConsentOfThatParticipantAndEnrolsOnce) 
     ASSERT_EQ(people->rowCount(), 2);
     EXPECT_THAT(cell("participants", 1, 5), HasSubstr("version 2, 20"));
     EXPECT_EQ(people->selectionModel()->selectedRows().front().row(), 1) << "the next step is with them";
+}
+
+TEST_F(StudyPageTest, TheStudysOwnButtonsStayInSightHoweverManyArePartOfIt) {
+    for (int i = 1; i <= 4; ++i) enrol(true, i);
+    page.resize(1000, 420);
+    letLive(50);
+    for (const char* name : {"studyResultsWanted", "noteOfStudy", "reports", "exportStudy", "closeStudy"}) {
+        const auto* button = page.findChild<QPushButton*>(name);
+        EXPECT_EQ(button->visibleRegion().boundingRect(), button->rect()) << name;
+    }
+    shot(page, "study-small");
+}
+
+TEST_F(StudyPageTest, AButtonKeepsTheFocusWhileTheListIsReadAgain) {
+    enrol(true);
+    page.activateWindow();
+    ASSERT_IN_TIME(QTest::qWaitForWindowActive(&page));
+    for (const char* name : {"startSession", "consentOne", "exportStudy"}) {
+        auto* button = page.findChild<QPushButton*>(name);
+        button->setFocus();
+        study.noteChange();
+        EXPECT_TRUE(button->hasFocus()) << name;
+        study.lend();
+        EXPECT_FALSE(button->isEnabled()) << name;
+        study.takeBack();
+        ASSERT_IN_TIME(comesTrue([&] { return !study.busy(); }));
+        ASSERT_IN_TIME(comesTrue([&] { return button->isEnabled(); }));
+        EXPECT_EQ(page.window()->focusWidget(), button) << name;
+    }
 }
 
 TEST_F(StudyPageTest, WhatWasOpenLastIsOfferedAgainWhileItIsThere) {
@@ -313,6 +343,7 @@ TEST_F(StudyPageTest, EveryKindOfNoteIsMadeInItsDialogAndTheParticularsAreShownA
         click(*asks->findChild<QPushButton*>("noteIt"));
         ASSERT_EQ(study.study()->notes().back().kind, kind.key);
         EXPECT_EQ(study.study()->notes().back().said.size(), kind.fields.size());
+        EXPECT_THAT(page.findChild<QLabel*>("studyTrouble")->text().toStdString(), HasSubstr("Noted")) << "it is said";
         letLive(20);
     }
     choose("note-particulars");
