@@ -2,6 +2,7 @@
 
 #include <QDateTime>
 #include <QDir>
+#include <QSettings>
 #include <QStandardPaths>
 
 #include "app/gui/pilot/InputRows.h"
@@ -23,6 +24,8 @@ QString newFolder() {
     const QDir documents(QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation));
     return documents.filePath("Tactoscope/rehearsal-" + QDateTime::currentDateTime().toString("yyyyMMdd-HHmmss"));
 }
+
+constexpr const char* kLast = "lastRehearsal";  // of QSettings
 
 /// What the rehearsal in a folder says about the next session; all empty if there is none yet.
 struct SeenRehearsal {
@@ -48,6 +51,12 @@ SeenRehearsal seenIn(const QString& folder, const std::string& participant) {
     return seen;
 }
 
+/// Returns the last rehearsal's folder if its session was interrupted, perhaps with the program; otherwise a new one.
+QString firstFolder() {
+    const auto last = QSettings().value(kLast).toString();
+    return seenIn(last, "virtual:1").unfinished ? last : newFolder();
+}
+
 constexpr double kTenfold = 10;
 
 }  // namespace
@@ -55,7 +64,7 @@ constexpr double kTenfold = 10;
 RehearsalPage::RehearsalPage(QWidget* parent)
     : QWidget(parent),
       title_(makeLabel({}, {.name = "rehearsalTitle", .size = TextSize::Large}, this)),
-      folder_(new FolderRow(newFolder(), tr("A new folder, or the folder of a rehearsal to continue."),
+      folder_(new FolderRow(firstFolder(), tr("A new folder, or the folder of a rehearsal to continue."),
                             tr("The rehearsal’s folder"), this)),
       offer_(new UnfinishedOffer(this)),
       trouble_(new TroubleLine("rehearsalTrouble", this)) {
@@ -86,7 +95,10 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     begin_ = pageButton(tr("Begin rehearsal"), "beginRehearsal", {}, this);
     begin_->setIcon(icon("run", Ink::Primary));
     makePrimary(*begin_);
-    connect(begin_, &QPushButton::clicked, this, &RehearsalPage::beginWanted);
+    connect(begin_, &QPushButton::clicked, this, [this] {
+        QSettings().setValue(kLast, folder());
+        emit beginWanted();
+    });
     result_ = pageButton(tr("Show the last result"), "lastResult",
                          tr("What the last session of this rehearsal that has ended came to."), this);
     connect(result_, &QPushButton::clicked, this, [this] { emit resultWanted(ended_); });

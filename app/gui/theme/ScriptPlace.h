@@ -15,7 +15,7 @@ namespace tacto::gui {
 }
 [[nodiscard]] inline QString withoutScriptPlace(QString error) {
     static const QRegularExpression place(R"((^|\s)\S*\.js:\d+: )");
-    return error.replace(place, QStringLiteral("\\1"));
+    return error.replace(place, QStringLiteral("\\1")).remove(QStringLiteral(", at this line or after it"));
 }
 
 }  // namespace tacto::gui

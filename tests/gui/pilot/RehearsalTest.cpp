@@ -313,6 +313,9 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     EXPECT_EQ(pilot->participantWindow(), nullptr);
     EXPECT_NE(find<QPushButton>(*pilot, "Go on with the session"), nullptr);
     shot(window, "pilot-stopped");
+    const gui::RehearsalPage nextDay;
+    EXPECT_EQ(nextDay.folder().toStdString(), (folder.path() / "study").string()) << "it is offered to go on";
+    EXPECT_TRUE(nextDay.mayGoOn());
 }
 
 TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
