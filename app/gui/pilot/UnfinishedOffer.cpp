@@ -61,7 +61,7 @@ UnfinishedOffer::UnfinishedOffer(QWidget* parent)
         connect(choice, &QRadioButton::toggled, this, &UnfinishedOffer::changed);
     }
     hide();
-    onEvent(*this, QEvent::Resize, [this] { fit(); });
+    onEvent(*says_, QEvent::Resize, [this] { fit(); });
 }
 
 void UnfinishedOffer::paintEvent(QPaintEvent* event) {

@@ -313,9 +313,15 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     EXPECT_EQ(pilot->participantWindow(), nullptr);
     EXPECT_NE(find<QPushButton>(*pilot, "Go on with the session"), nullptr);
     shot(window, "pilot-stopped");
-    const gui::RehearsalPage nextDay;
+    gui::RehearsalPage nextDay;
     EXPECT_EQ(nextDay.folder().toStdString(), (folder.path() / "study").string()) << "it is offered to go on";
     EXPECT_TRUE(nextDay.mayGoOn());
+    nextDay.resize(1140, 560);
+    nextDay.show();
+    letLive(50);
+    const auto* says = nextDay.findChild<QLabel*>("unfinishedSays");
+    EXPECT_EQ(says->height(), says->heightForWidth(says->width())) << "no room is left blank";
+    shot(nextDay, "rehearsal-to-go-on");
 }
 
 TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
