@@ -236,6 +236,12 @@ struct FigureCell {
     std::vector<QString> numbers;
     std::vector<bool> unitAfter;
 
+    /// Returns the largest of the numbers, without a prefix.
+    [[nodiscard]] double size() const {
+        double most = 0;
+        for (const auto& number : numbers) most = std::max(most, number.toDouble());
+        return most * std::pow(10.0, exponent);
+    }
     /// "0 V" is 0 in any prefix.
     [[nodiscard]] bool isZero() const { return numbers.size() == 1 && numbers.front() == "0"; }
     /// Returns the number times 10^`places`. Sets `padded` if zeros had to be added.
@@ -298,14 +304,21 @@ std::optional<FigureCell> figureCell(QString& text) {
 
 void sharePrefix(const std::vector<QString*>& cells) {
     constexpr qsizetype kMuchShorter = 6;  // characters
+    constexpr double kOnePrefix = 1000;    // largest over smallest with one prefix
     std::vector<FigureCell> figures;
     for (auto* cell : cells) {
         if (auto figure = figureCell(*cell)) figures.push_back(*std::move(figure));
     }
     while (!figures.empty()) {
         const QString base = figures.front().base;
-        const auto others = std::stable_partition(figures.begin(), figures.end(),
-                                                  [&](const FigureCell& each) { return each.base == base; });
+        const auto same = std::stable_partition(figures.begin(), figures.end(),
+                                                [&](const FigureCell& each) { return each.base == base; });
+        double most = 0;
+        for (auto each = figures.begin(); each != same; ++each) most = std::max(most, each->size());
+        // 100 µs in a column of 2 s keeps a prefix with its like.
+        const auto others = std::stable_partition(figures.begin(), same, [&](const FigureCell& each) {
+            return each.isZero() || each.size() * kOnePrefix >= most;
+        });
         std::vector<int> prefixes;
         for (auto each = figures.begin(); each != others; ++each)
             if (!each->isZero()) prefixes.push_back(each->exponent);

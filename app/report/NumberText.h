@@ -75,7 +75,8 @@ struct ColumnFormat {
 
 /// Gives all figures of one unit in a column the same prefix: "620.0 µV" above "45.25 mV" becomes "0.6200 mV". The
 /// digits stay, the point moves. The prefix is the largest in the column, or a smaller one if that is much shorter and
-/// adds no meaningless zero. Sentences, and cells with two units, do not change.
+/// adds no meaningless zero; a figure of less than a thousandth of the largest has one with its like. Sentences, and
+/// cells with two units, do not change.
 void sharePrefix(const std::vector<QString*>& cells);
 void sharePrefix(QStringList& cells);
 
