@@ -74,7 +74,7 @@ Result<void> ProtocolRun::leaveFault() {
     if (order_.resetFault) return bench().resetFault();
     return fail(ErrorCode::NotArmed,
                 "the stimulator is in a fault, {}. {} Fix the cause, then reset the fault: run again with "
-                "--reset-fault, or Bench > Reset fault in the window",
+                "--reset-fault, or press “Reset fault and run again…” in the window",
                 seen.reason.view(), outputAfter(seen.fault));
 }
 
@@ -153,6 +153,7 @@ RunResult ProtocolRun::finish() {
         static_cast<void>(session.event(opened_->clock->now(), "script not started", {{"why", notStarted_->message}}));
     }
     result.stoppedBySafety = endedBySafety(result.outcome, bench());
+    result.leftInFault = bench().telemetry().state == InterlockState::Faulted;
     if (check_) check_->area = bench().profile().electrodeArea;  // as used in the run
     opened_->bench.reset();
     if (auto closed = session.close(result.outcome.error ? "ended by an error" : "finished"); !closed)

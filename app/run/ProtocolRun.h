@@ -37,6 +37,7 @@ struct RunOrder : BenchOrder {
 struct RunResult {
     ScriptOutcome outcome;
     bool stoppedBySafety = false;    ///< by a fault, a refused train or an operator's stop
+    bool leftInFault = false;        ///< no run begins on the stimulator until its fault is reset
     bool simulated = false;          ///< a device was simulated, or the results are a prediction; `marks` say which
     std::vector<std::string> marks;  ///< from sessionMarks(): origin, calibration, flags of roughness R
     std::vector<SessionDevice> devices;

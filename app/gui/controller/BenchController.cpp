@@ -347,6 +347,7 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
     if (!prepared) {
         finished->result.outcome.error = prepared.error();
         finished->result.stoppedBySafety = prepared.error().code == ErrorCode::Stopped;
+        finished->result.leftInFault = prepared.error().code == ErrorCode::NotArmed;
         return end();
     }
     auto& run = *prepared->run;

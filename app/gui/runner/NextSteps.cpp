@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/gui/runner/WiringPanel.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
 #include "app/gui/theme/RecordColumns.h"
@@ -21,6 +22,13 @@ struct NextStepWords {
 
 NextStepWords wordsOf(NextStep step) {
     switch (step) {
+        case NextStep::ResetFault:
+            return {QObject::tr("Reset fault and run again…"), "run",
+                    QObject::tr("Once the cause is gone. Resets the fault and runs with the settings as they are; on "
+                                "hardware it asks before anything is put out.")};
+        case NextStep::WithoutFault:
+            return {QObject::tr("Run without the fault"), "run",
+                    QObject::tr("Takes the fault out of the simulated devices under Wiring, and runs again.")};
         case NextStep::UseProfile:
             return {QObject::tr("Use this profile"), "verdict-pass",
                     QObject::tr("Uses the profile that this run made, for the open bench and for later runs. Arming "
@@ -60,6 +68,10 @@ std::vector<NextStep> nextStepsAfter(const FinishedRun& run) {
     const auto verdict = run.result.verdict();
     const bool passed = verdict == "pass";
     std::vector<NextStep> steps;
+    if (run.result.stoppedBySafety && std::ranges::any_of(run.order.uris, simulatesFault))
+        steps.push_back(NextStep::WithoutFault);
+    else if (run.result.leftInFault)
+        steps.push_back(NextStep::ResetFault);
     if (outcome.error || (!passed && !verdict.empty())) {
         const bool failedCheck = calibrates && memberAt(results, "type") == "check";
         steps.push_back(failedCheck && !outcome.error ? NextStep::Calibrate : NextStep::ChangeSettings);

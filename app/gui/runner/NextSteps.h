@@ -14,6 +14,8 @@
 namespace tacto::gui {
 
 enum class NextStep {
+    ResetFault,     ///< reset the fault in which the run left the stimulator, and run again
+    WithoutFault,   ///< run again on the simulated devices without their faults
     UseProfile,     ///< use the profile that the run made
     Check,          ///< check the stored calibration at a few levels
     Calibrate,      ///< calibrate fully

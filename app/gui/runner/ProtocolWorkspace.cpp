@@ -260,7 +260,9 @@ Result<RunOrder> ProtocolWorkspace::order() {
     return order;
 }
 
-void ProtocolWorkspace::runAsked() {
+void ProtocolWorkspace::runAsked() { ask(false); }
+
+void ProtocolWorkspace::ask(bool resetFault) {
     if (running_ || !declaration_) return;
     if (anotherRuns()) return panel_->say(tr("Another protocol is running. Wait for its end or stop it (Esc)."));
     auto asked = order();
@@ -280,12 +282,14 @@ void ProtocolWorkspace::runAsked() {
     }
     const auto harmless = controller_.allVirtual(asked->uris);
     if (!harmless) return panel_->say(tr("%1 Nothing was opened.").arg(sentence(harmless.error())));
+    asked->resetFault = resetFault;
     asked_.ask(std::move(*asked), controller_.mark());
     if (*harmless) return runNow();
     panel_->say({});
-    panel_->askToArm(tr("This run puts out current on hardware, into a load declared as %1. Is exactly that "
-                        "connected, and no person?")
-                         .arg(QString::fromStdString(declaredLoad(asked_.order().settings.parameters))));
+    const auto current = tr("This run puts out current on hardware, into a load declared as %1. Is exactly that "
+                            "connected, and no person?")
+                             .arg(QString::fromStdString(declaredLoad(asked_.order().settings.parameters)));
+    panel_->askToArm(resetFault ? tr("The fault is reset first: is its cause gone? %1").arg(current) : current);
 }
 
 /// True also while another run is just ending; its last messages are not for this page.
@@ -353,6 +357,11 @@ void ProtocolWorkspace::showBench() {
 void ProtocolWorkspace::goOn(NextStep next) {
     if (!last_) return;
     switch (next) {
+        case NextStep::ResetFault:
+            return ask(true);
+        case NextStep::WithoutFault:
+            pages_->wiring().removeFaults();
+            return runAsked();
         case NextStep::UseProfile:
             return useProfile();
         case NextStep::Check:

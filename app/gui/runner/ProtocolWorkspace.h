@@ -83,6 +83,8 @@ private:
     void setObstacle(const QString& why, bool byProfile);
     /// Why a typed value is refused: of the settings, else of the wiring. Empty: all can be read.
     [[nodiscard]] QString refusal() const;
+    /// `resetFault`: as in RunOrder.
+    void ask(bool resetFault);
     void runNow();
     [[nodiscard]] bool anotherRuns() const;
     void ended(const std::shared_ptr<const FinishedRun>& run);

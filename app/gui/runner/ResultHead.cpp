@@ -102,7 +102,8 @@ void ResultHead::show(const FinishedRun& run) {
     more_->setVisible(!why.isEmpty());
     giveRoom();
     errorLine_ = outcome.line;
-    toScript_->setVisible(outcome.error && outcome.line > 0);
+    // A fault of the bench is no mistake at a line of the script.
+    toScript_->setVisible(outcome.error && outcome.line > 0 && !run.result.leftInFault);
 }
 
 void ResultHead::giveRoom() {

@@ -1,6 +1,7 @@
 #include "app/gui/runner/SimulatedBenchDialog.h"
 
 #include <QDialogButtonBox>
+#include <algorithm>
 
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
@@ -36,7 +37,13 @@ constexpr int kBenchChars = 64;  // width in characters
 
 }  // namespace
 
-SimulatedBenchDialog::SimulatedBenchDialog(const QString& accept, QWidget* parent) : QDialog(parent) {
+SimulatedBenchDialog::SimulatedBenchDialog(const QString& accept, const std::vector<DeviceUri>& before,
+                                           const std::set<Role>& needs, QWidget* parent)
+    : QDialog(parent) {
+    const std::pair<const char*, Role> simulated[] = {
+        {"stimulator", Role::Stimulator}, {"finger", Role::Sensor}, {"oscilloscope", Role::Oscilloscope}};
+    for (const auto& [device, role] : simulated)
+        if (needs.empty() || needs.contains(role)) devices_.push_back(device);
     setWindowTitle(tr("Simulated bench"));
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(heading(tr("A simulated bench"), this));
@@ -44,8 +51,12 @@ SimulatedBenchDialog::SimulatedBenchDialog(const QString& accept, QWidget* paren
                                      "see what a fault looks like before hardware shows it."),
                                   this));
     std::vector<std::pair<QString, QString>> faults;
-    for (const auto& fault : kFaults)
-        faults.emplace_back(QString::number(faults.size()), QCoreApplication::translate("Faults", fault.words));
+    for (std::size_t i = 0; i < std::size(kFaults); ++i) {
+        const auto& fault = kFaults[i];
+        const auto has = [&](std::string_view device) { return device == fault.device; };
+        if (i == 0 || std::ranges::any_of(devices_, has))
+            faults.emplace_back(QString::number(i), QCoreApplication::translate("Faults", fault.words));
+    }
     form_ = new FieldForm(this, FieldForm::Labels::Beside);
     form_->show(
         {choiceField("mode", tr("&Stimulator"), {{"voltage", tr("voltage source")}, {"current", tr("current source")}},
@@ -66,11 +77,33 @@ SimulatedBenchDialog::SimulatedBenchDialog(const QString& accept, QWidget* paren
     layout->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(buttons, &QDialogButtonBox::accepted, this, &SimulatedBenchDialog::take);
+    begin(before);
     connect(form_, &FieldForm::edited, this, &SimulatedBenchDialog::judge);
     judge();
     const int wide = fontMetrics().averageCharWidth() * kBenchChars;
     resize(wide, layout->totalHeightForWidth(wide));
     growWithContent(*this);
+}
+
+void SimulatedBenchDialog::begin(const std::vector<DeviceUri>& before) {
+    for (const auto& uri : before) {
+        if (uri.scheme != "sim") continue;
+        for (const auto& [key, value] : uri.parameters) {
+            if (key == "mode" || key == "gain") form_->set(key, qtext(value));
+            if (key == "load")
+                if (const auto load = parseLoad(value)) form_->set(key, withOhmSigns(qtext(load->text())));
+            if (key == "fault") beginWith(uri.path, qtext(value));
+        }
+    }
+}
+
+/// `fault`: such as "open@10s".
+void SimulatedBenchDialog::beginWith(const std::string& device, const QString& fault) {
+    const auto name = fault.section('@', 0, 0);
+    for (std::size_t i = 1; i < std::size(kFaults); ++i)
+        if (device == kFaults[i].device && name == kFaults[i].key) form_->set("fault", QString::number(i));
+    const auto from = fault.section('@', 1).section("..", 0, 0);
+    if (from.endsWith('s')) form_->set("faultAt", from.chopped(1));
 }
 
 QStringList SimulatedBenchDialog::uris(const nlohmann::json& values) const {
@@ -85,7 +118,7 @@ QStringList SimulatedBenchDialog::uris(const nlohmann::json& values) const {
     auto stimulator = fmt::format("sim:stimulator?mode={}&gain={:g}&load={}", values.at("mode").get<std::string>(),
                                   values.at("gain").get<double>(), load.toStdString());
     QStringList all;
-    for (const auto* device : {"stimulator", "finger", "oscilloscope"}) {
+    for (const auto* device : devices_) {
         auto uri = std::string_view(device) == "stimulator" ? stimulator : fmt::format("sim:{}", device);
         if (const auto what = faultOf(device); !what.empty())
             uri += fmt::format("{}fault={}", uri.find('?') == std::string::npos ? '?' : '&', what);

@@ -5,16 +5,22 @@
 #include <QDialog>
 #include <QLabel>
 #include <QPushButton>
+#include <set>
+#include <vector>
 
 #include "app/gui/theme/FieldForm.h"
+#include "core/base/Words.h"
+#include "core/devices/DeviceUri.h"
 
 namespace tacto::gui {
 
 class SimulatedBenchDialog final : public QDialog {
     Q_OBJECT
 public:
-    /// `accept`: the words of the button that takes the bench.
-    explicit SimulatedBenchDialog(const QString& accept, QWidget* parent);
+    /// `accept`: the words of the button that takes the bench. Begins with what the simulated devices in `before` are
+    /// like. `needs`: the roles that are simulated; empty: all.
+    SimulatedBenchDialog(const QString& accept, const std::vector<DeviceUri>& before, const std::set<Role>& needs,
+                         QWidget* parent);
 
 signals:
     /// `devices`: their addresses, a blank between them.
@@ -22,10 +28,13 @@ signals:
 
 private:
     /// `values`: the typed values of the form.
+    void begin(const std::vector<DeviceUri>& before);
+    void beginWith(const std::string& device, const QString& fault);
     [[nodiscard]] QStringList uris(const nlohmann::json& values) const;
     void judge();
     void take();
 
+    std::vector<const char*> devices_;
     FieldForm* form_;
     QLabel* says_;
     QPushButton* open_;

@@ -4,6 +4,7 @@
 #include <QMenu>
 #include <QRegularExpression>
 #include <QToolButton>
+#include <algorithm>
 
 #include "app/gui/calibrate/InstrumentDialog.h"
 #include "app/gui/runner/SimulatedBenchDialog.h"
@@ -31,6 +32,11 @@ Result<std::vector<DeviceUri>> devicesOf(const QString& text) {
         uris.push_back(std::move(*uri));
     }
     return uris;
+}
+
+bool simulatesFault(const DeviceUri& device) {
+    return device.scheme == "sim" &&
+           std::ranges::any_of(device.parameters, [](const auto& each) { return each.first == "fault"; });
 }
 
 WiringPanel::WiringPanel(QWidget* parent) : QWidget(parent) {
@@ -85,11 +91,12 @@ QWidget* WiringPanel::buildDevices() {
     add->setPopupMode(QToolButton::InstantPopup);
     add->setFocusPolicy(Qt::StrongFocus);
     auto* menu = new QMenu(add);
-    menu->addAction(tr("&Simulated devices"), this, [this] { devices_->setText("sim:"); });
+    menu->addAction(tr("&Simulated devices"), this, [this] { setDevices("sim:"); });
     menu->addAction(tr("Simulated devices with &faults…"), this, [this] {
-        auto* dialog = new SimulatedBenchDialog(tr("&Use"), this);
+        auto* dialog =
+            new SimulatedBenchDialog(tr("&Use"), devicesOf(devices()).value_or(std::vector<DeviceUri>()), roles_, this);
         connect(dialog, &SimulatedBenchDialog::chosen, this, [this](const QString& addresses, quint64 seed) {
-            devices_->setText(addresses);
+            setDevices(addresses);
             seed_->setValue(int(seed));
         });
         openDialog(dialog);
@@ -140,17 +147,33 @@ void WiringPanel::useOscilloscope(const QString& address) {
         if (uri.scheme != "sigrok" && uri.scheme != "capture" && !simulated) all << qtext(uri.text());
     }
     if (all.size() == 1) all << "sim:";
-    devices_->setText(all.join(' '));
+    setDevices(all.join(' '));
+}
+
+void WiringPanel::removeFaults() {
+    QStringList all;
+    for (auto uri : devicesOf(devices()).value_or(std::vector<DeviceUri>())) {
+        if (simulatesFault(uri)) std::erase_if(uri.parameters, [](const auto& each) { return each.first == "fault"; });
+        all << qtext(uri.text());
+    }
+    setDevices(all.join(' '));
+}
+
+/// Shows the beginning of addresses that are longer than the field.
+void WiringPanel::setDevices(const QString& addresses) {
+    devices_->setText(addresses);
+    devices_->setCursorPosition(0);
 }
 
 void WiringPanel::addFolder(const QString& scheme, const QString& title) {
     FileQuestion question{.title = title, .wants = FileQuestion::Wants::Folder};
     askForFile(*this, question, [this, scheme](const QString& folder) {
-        devices_->setText(QString("%1:%2 %3").arg(scheme, folder, devices().isEmpty() ? "sim:" : devices()));
+        setDevices(QString("%1:%2 %3").arg(scheme, folder, devices().isEmpty() ? "sim:" : devices()));
     });
 }
 
 void WiringPanel::show(const ProtocolDeclaration& declaration) {
+    roles_ = declaration.needs;
     QStringList roles;
     for (const auto role : declaration.needs) roles << qtext(nameOf(role));
     needs_->setText(roles.isEmpty() ? tr("Needs no device.") : tr("Needs: %1.").arg(roles.join(", ")));

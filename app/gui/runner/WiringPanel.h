@@ -8,6 +8,7 @@
 #include <QTimer>
 #include <QWidget>
 #include <functional>
+#include <set>
 #include <vector>
 
 #include "app/gui/controller/SideWork.h"
@@ -30,6 +31,7 @@ public:
     [[nodiscard]] Result<void> fill(RunOrder& order) const;
     /// Returns the devices as typed, such as "sim:".
     [[nodiscard]] QString devices() const { return devices_->text().trimmed(); }
+    void removeFaults();
 
 signals:
     void edited();
@@ -38,11 +40,13 @@ private:
     [[nodiscard]] QWidget* buildDevices();
     [[nodiscard]] QWidget* buildOutput();
     void useOscilloscope(const QString& address);
+    void setDevices(const QString& addresses);
     void addFolder(const QString& scheme, const QString& title);
     void judge();
     void check();
     void refuse(const QString& why);
     QLabel* needs_;
+    std::set<Role> roles_;  // that the protocol needs
     QLineEdit* devices_ = nullptr;
     TroubleLine* trouble_;
     QString refused_;
@@ -56,5 +60,8 @@ private:
 
 /// Splits "recording:/a b sim:" into devices; a blank ends a device only if a scheme follows.
 [[nodiscard]] Result<std::vector<DeviceUri>> devicesOf(const QString& text);
+
+/// True for a simulated device with a fault.
+[[nodiscard]] bool simulatesFault(const DeviceUri& device);
 
 }  // namespace tacto::gui

@@ -29,8 +29,9 @@ constexpr std::chrono::seconds kAnswerWithin =
 
 }  // namespace
 
-ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString& load, QWidget* parent)
-    : QDialog(parent), controller_(controller), purpose_(purpose), asked_(controller.mark()) {
+ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString& load, DriveSource again,
+                     QWidget* parent)
+    : QDialog(parent), controller_(controller), purpose_(purpose), asked_(controller.mark()), before_(again) {
     const auto open = controller.open();
     readsBack_ = !open || !open->source || open->source->readsBack;  // without a device there is nothing to read back
     massager_ = open && !open->source;
@@ -115,18 +116,31 @@ void ArmDialog::addWhatIsArmed(QVBoxLayout& layout) {
 QPushButton* ArmDialog::addButtons(QVBoxLayout& layout) {
     const bool check = purpose_ == Purpose::CheckImpedance;
     auto* buttons = new QDialogButtonBox(this);
-    arm_ = new ConfirmButton(check ? tr("Check impedance") : tr("Arm output"), this);
+    if (before_ != DriveSource::Off) {
+        again_ = addConfirm(
+            before_ == DriveSource::Sensor ? tr("Arm and drive by fingertip") : tr("Arm and drive by hand"),
+            "armAndDrive", tr("Second step: measures the load, arms, and drives as before the fault."), before_);
+        buttons->addButton(again_, QDialogButtonBox::ActionRole);
+    }
+    arm_ = check ? addConfirm(tr("Check impedance"), "checkImpedance",
+                              tr("Second step: measures the load and ends disarmed."), DriveSource::Off)
+                 : addConfirm(tr("Arm output"), "armOutput", tr("Second step: measures the load and arms."),
+                              DriveSource::Off);
     buttons->addButton(arm_, QDialogButtonBox::ActionRole);
-    arm_->setObjectName(check ? "checkImpedance" : "armOutput");
-    arm_->setToolTip(check ? tr("Second step: measures the load and ends disarmed.")
-                           : tr("Second step: measures the load and arms."));
-    connect(arm_, &QPushButton::clicked, this, &ArmDialog::confirm);
     auto* cancel = buttons->addButton(QDialogButtonBox::Cancel);
     cancel->setAutoDefault(false);
     cancel->setDefault(false);
     connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
     layout.addWidget(buttons);
     return cancel;
+}
+
+QPushButton* ArmDialog::addConfirm(const QString& text, const char* name, const QString& tip, DriveSource drives) {
+    auto* button = new ConfirmButton(text, this);
+    button->setObjectName(name);
+    button->setToolTip(tip);
+    connect(button, &QPushButton::clicked, this, [this, drives] { confirm(drives); });
+    return button;
 }
 
 void ArmDialog::judge() {
@@ -137,38 +151,44 @@ void ArmDialog::judge() {
     trouble_->setVisible(!parsed);
     text_ = parsed ? controller_.confirmationOf(*parsed) : std::string();
     confirmed_->setText(keptTogether(titled(withOhmSigns(qtext(text_)))));
-    arm_->setEnabled(parsed && (readsBack_ || connected_->isChecked()));
+    for (auto* button : {arm_, again_})
+        if (button != nullptr) button->setEnabled(parsed && (readsBack_ || connected_->isChecked()));
+}
+
+QString ArmDialog::firstWords(DriveSource source, const std::optional<Command>& first) const {
+    if (source == DriveSource::Off) return tr("Drive is off: no train follows until you choose one.");
+    if (source == DriveSource::Sensor)
+        return tr("The fingertip drives: the first train follows as soon as it feels something.");
+    if (!first) return tr("Drive is by hand and is set to a train that cannot be delivered.");
+    const auto every = quantityText(first->interval.count(), "s", 3);
+    if (massager_) {
+        const Encoder encoder(controller_.profile().encoding);
+        return tr("Drive is by hand: the first burst follows at once, at %1 of the strength, every %2.")
+            .arg(quantityText(100 * encoder.massagerIntensity(first->amplitude), "%", 2), every);
+    }
+    return tr("Drive is by hand: the first train follows at once, %1 every %2.")
+        .arg(quantityText(first->amplitude.value(), "V", 3), every);
 }
 
 /// Says what the first train will be, so that it comes as no surprise.
 void ArmDialog::sayFirst() {
-    const auto source = controller_.telemetry().driving;
-    QString text = tr("Drive is off: no train follows until you choose one.");
-    if (source == DriveSource::Sensor)
-        text = tr("The fingertip drives: the first train follows as soon as it feels something.");
-    if (source == DriveSource::Manual) {
-        const Encoder encoder(controller_.profile().encoding);
-        const auto first = firstByHand(controller_, controller_.telemetry());
-        const auto every = first ? quantityText(first->interval.count(), "s", 3) : QString();
-        if (!first)
-            text = tr("Drive is by hand and is set to a train that cannot be delivered.");
-        else if (massager_)
-            text = tr("Drive is by hand: the first burst follows at once, at %1 of the strength, every %2.")
-                       .arg(quantityText(100 * encoder.massagerIntensity(first->amplitude), "%", 2), every);
-        else
-            text = tr("Drive is by hand: the first train follows at once, %1 every %2.")
-                       .arg(quantityText(first->amplitude.value(), "V", 3), every);
-    }
-    setTone(*first_, source == DriveSource::Off ? Tone::Quiet : Tone::Warning);
+    const auto telemetry = controller_.telemetry();
+    auto text = firstWords(telemetry.driving, firstByHand(controller_, telemetry));
+    if (again_ != nullptr)
+        text = tr("“%1”: %2\n“%3”: %4")
+                   .arg(again_->text(), firstWords(before_, wouldByHand(controller_)), arm_->text(), text);
+    setTone(*first_, telemetry.driving == DriveSource::Off && again_ == nullptr ? Tone::Quiet : Tone::Warning);
     if (first_->text() != text) first_->setText(text);
 }
 
-void ArmDialog::confirm() {
+void ArmDialog::confirm(DriveSource drives) {
     ArmRequest request;
     if (!massager_) request.load = load_->text().toStdString();
     request.operatorConfirmed = true;
     request.declaredLoadConfirmed = connected_->isChecked();
     request.confirmed = text_;
+    const auto& hand = controller_.hand();
+    if (drives != DriveSource::Off) controller_.drive(drives, hand.roughness, hand.pressure);
     if (purpose_ == Purpose::CheckImpedance)
         controller_.checkImpedance(request, asked_);
     else
@@ -203,14 +223,14 @@ void ArmQuestion::noteBench() {
     if (std::exchange(loadOf_, open->session) != open->session) load_ = knownLoad(open->about);
 }
 
-void ArmQuestion::ask(ArmDialog::Purpose purpose) {
+void ArmQuestion::ask(ArmDialog::Purpose purpose, DriveSource again) {
     const auto open = controller_.open();
     const bool live = controller_.activity() == Activity::Live && open;
     if (purpose == ArmDialog::Purpose::Arm && !live)
         return emit refused(tr("Nothing to arm: no bench is open. Open the simulated bench (Ctrl+B)"));
     if (!live || (purpose == ArmDialog::Purpose::CheckImpedance && !open->source))
         return emit refused(tr("No impedance to check: no stimulator is open. Open the simulated bench (Ctrl+B)"));
-    auto* dialog = new ArmDialog(controller_, purpose, load_, &window_);
+    auto* dialog = new ArmDialog(controller_, purpose, load_, again, &window_);
     connect(dialog, &QDialog::accepted, this, [this, dialog] { load_ = dialog->load(); });
     connect(&controller_, &BenchController::changed, dialog, &QDialog::reject);
     openDialog(dialog);

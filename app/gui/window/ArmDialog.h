@@ -11,8 +11,10 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 #include <filesystem>
+#include <optional>
 
 #include "app/gui/controller/BenchController.h"
+#include "core/encoding/Encoder.h"
 
 namespace tacto::gui {
 
@@ -20,7 +22,8 @@ class ArmDialog final : public QDialog {
     Q_OBJECT
 public:
     enum class Purpose { Arm, CheckImpedance };
-    ArmDialog(BenchController& controller, Purpose purpose, const QString& load, QWidget* parent);
+    /// `again`: what drove before a fault; unless it is Off, a second button arms and lets it drive again.
+    ArmDialog(BenchController& controller, Purpose purpose, const QString& load, DriveSource again, QWidget* parent);
     /// The load that the operator declared, as typed.
     [[nodiscard]] QString load() const { return load_->text(); }
 
@@ -29,9 +32,11 @@ private:
     void addLoad(QVBoxLayout& layout, const QString& load);
     void addWhatIsArmed(QVBoxLayout& layout);
     QPushButton* addButtons(QVBoxLayout& layout);
+    QPushButton* addConfirm(const QString& text, const char* name, const QString& tip, DriveSource drives);
     void judge();
-    void confirm();
+    void confirm(DriveSource drives);
     void sayFirst();
+    [[nodiscard]] QString firstWords(DriveSource source, const std::optional<Command>& first) const;
 
     BenchController& controller_;
     const Purpose purpose_;
@@ -43,6 +48,8 @@ private:
     QLabel* trouble_;
     QCheckBox* connected_;
     QPushButton* arm_;
+    QPushButton* again_ = nullptr;
+    const DriveSource before_;
     bool readsBack_ = true;
     bool massager_ = false;  // massagers have no load
 };
@@ -54,7 +61,8 @@ class ArmQuestion final : public QObject {
 public:
     ArmQuestion(BenchController& controller, QWidget& window);
     /// Asks, as the first of the two steps. Another bench or profile makes the question void.
-    void ask(ArmDialog::Purpose purpose);
+    /// `again`: as for ArmDialog.
+    void ask(ArmDialog::Purpose purpose, DriveSource again = DriveSource::Off);
 
 signals:
     /// Nothing can be armed or checked. `why` is a sentence that says what to do.

@@ -10,35 +10,40 @@ namespace tacto::gui {
 
 namespace {
 
-QString nextStep(std::optional<FaultCause> cause) {
-    if (!cause) return FaultBanner::tr("Fix the cause, reset the fault, then arm again.");
+struct AfterFault {
+    QString next;
+    bool mayArm = false;  ///< false: something must be checked before anything is armed
+};
+
+AfterFault afterFault(std::optional<FaultCause> cause) {
+    if (!cause) return {FaultBanner::tr("Fix the cause, reset the fault, then arm again."), false};
     switch (*cause) {
         case FaultCause::DeviceLost:
-            return FaultBanner::tr("Plug it in again and wait until it is listed, then reset.");
+            return {FaultBanner::tr("Plug it in again and wait until it is listed, then reset."), true};
         case FaultCause::DeviceFault:
-            return FaultBanner::tr("Check the device and its cable, then reset. You arm again afterwards.");
+            return {FaultBanner::tr("Check the device and its cable, then reset."), true};
         case FaultCause::OpenElectrode:
-            return FaultBanner::tr("Check the electrode and its lead, then reset. You arm again afterwards.");
+            return {FaultBanner::tr("Check the electrode and its lead, then reset."), true};
         case FaultCause::ShortElectrode:
-            return FaultBanner::tr("Look for leads or electrodes that touch, then reset. You arm again afterwards.");
+            return {FaultBanner::tr("Look for leads or electrodes that touch, then reset."), true};
         case FaultCause::NetCharge:
-            return FaultBanner::tr("Disconnect the electrodes and check the pulse on a resistor, then reset.");
+            return {FaultBanner::tr("Disconnect the electrodes and check the pulse on a resistor, then reset."), false};
         case FaultCause::StatusMissing:
-            return FaultBanner::tr("Check the cable to the stimulator, then reset. You arm again afterwards.");
+            return {FaultBanner::tr("Check the cable to the stimulator, then reset."), true};
         case FaultCause::LoopSilent:
-            return FaultBanner::tr(
-                "Close the programs that keep this computer busy, then reset. You arm again afterwards.");
+            return {FaultBanner::tr("Close the programs that keep this computer busy, then reset."), true};
         case FaultCause::StaleSensor:
-            return FaultBanner::tr("Check the fingertip sensor and its cable, then reset.");
+            return {FaultBanner::tr("Check the fingertip sensor and its cable, then reset."), true};
         case FaultCause::LimitBroken:
-            return FaultBanner::tr(
-                "Run the safety check before you arm again: the stimulator delivered more than it may.");
+            return {FaultBanner::tr(
+                        "Run the safety check before you arm again: the stimulator delivered more than it may."),
+                    false};
         case FaultCause::StuckOn:
-            return FaultBanner::tr("Switch it off at its own switch and take the load off, then reset.");
+            return {FaultBanner::tr("Switch it off at its own switch and take the load off, then reset."), false};
         case FaultCause::Internal:
             break;
     }
-    return FaultBanner::tr("Close the bench and open it again. Keep the session: it says what happened.");
+    return {FaultBanner::tr("Close the bench and open it again. Keep the session: it says what happened."), false};
 }
 
 /// The gate's table holds the trains of its last 5 s.
@@ -77,7 +82,8 @@ void FaultBanner::refresh(const Telemetry& telemetry, QTime now) {
     const auto cause = reason.isEmpty() ? tr("The bench has faulted.") : reason;
     cause_->setText(faultedAt_.isValid() ? QString("%1 · %2").arg(faultedAt_.toString("HH:mm:ss"), cause) : cause);
     output_->setText(outputWords(telemetry));
-    next_->setText(nextStep(telemetry.fault));
+    const auto after = afterFault(telemetry.fault);
+    next_->setText(after.mayArm ? tr("%1 Arming is asked for next.").arg(after.next) : after.next);
     if (toolTip() == text()) return;
     setToolTip(text());
     setAccessibleDescription(text());
@@ -117,6 +123,8 @@ QString FaultBanner::outputWords(const Telemetry& telemetry) const {
     return (notEvaluated_ ? tr("%1 %2, within every limit that was evaluated.") : tr("%1 %2, within all limits."))
         .arg(off, delivered);
 }
+
+bool FaultBanner::mayArmNext(std::optional<FaultCause> cause) { return afterFault(cause).mayArm; }
 
 QString FaultBanner::text() const { return cause_->text() + "\n" + output_->text() + "\n" + next_->text(); }
 

@@ -4,6 +4,7 @@
 
 #include <QFrame>
 #include <QTime>
+#include <optional>
 
 #include "app/gui/theme/Labels.h"
 #include "core/bench/Telemetry.h"
@@ -19,6 +20,8 @@ public:
     void refresh(const Telemetry& telemetry, QTime now = QTime::currentTime());
     /// While the operator is blind, neither the telemetry nor this banner says anything about trains.
     void setBlind(bool blind) { blind_ = blind; }
+    /// True if the output may be armed as soon as the fault is reset; false if something must be checked before.
+    [[nodiscard]] static bool mayArmNext(std::optional<FaultCause> cause);
     /// The full text for a tool tip and for the log.
     [[nodiscard]] QString text() const;
 

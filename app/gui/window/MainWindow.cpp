@@ -168,6 +168,8 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     arming_ = new ArmQuestion(controller_, *this);
     connect(arming_, &ArmQuestion::refused, banner_, &NoticeBanner::complain);
     connect(safety_, &SafetyBar::armRequested, this, &MainWindow::askToArm);
+    connect(safety_, &SafetyBar::faultReset, arming_,
+            [this](DriveSource drove) { arming_->ask(ArmDialog::Purpose::Arm, drove); });
     connect(safety_, &SafetyBar::detailsRequested, line_, &RecordingLine::showLog);
     connect(&controller_, &BenchController::changed, this, &MainWindow::showTitle);
     closing_ = new CloseQuestion(
@@ -427,7 +429,12 @@ void MainWindow::noteBlind() {
 void MainWindow::checkImpedance() { arming_->ask(ArmDialog::Purpose::CheckImpedance); }
 
 void MainWindow::askForSimulatedBench() {
-    auto* dialog = new SimulatedBenchDialog(tr("&Open"), this);
+    std::vector<DeviceUri> before;
+    if (const auto open = controller_.open()) {
+        for (const auto& device : open->about.devices)
+            if (auto uri = DeviceUri::parse(device.uri)) before.push_back(std::move(*uri));
+    }
+    auto* dialog = new SimulatedBenchDialog(tr("&Open"), before, {}, this);
     connect(dialog, &SimulatedBenchDialog::chosen, this, [this](const QString& devices, quint64 seed) {
         LiveOrder order;
         order.uris = devicesOf(devices).value_or(std::vector<DeviceUri>());

@@ -49,7 +49,7 @@ void Menus::addBench() {
     auto* disarm = bench->addAction(tr("&Disarm"), controller, &BenchController::disarm);
     auto* pause = bench->addAction(tr("&Pause"), &window_, [this] { window_.safetyBar().holdOutput(true); });
     auto* resume = bench->addAction(tr("Res&ume"), &window_, [this] { window_.safetyBar().holdOutput(false); });
-    auto* reset = bench->addAction(tr("&Reset fault"), controller, &BenchController::resetFault);
+    auto* reset = bench->addAction(tr("&Reset fault"), &window_, [this] { window_.safetyBar().resetFault(); });
     auto* check = bench->addAction(tr("Check &impedance"), &window_, &MainWindow::checkImpedance);
     bench->setToolTipsVisible(true);
     // The entries follow the output's state at the time the menu opens.

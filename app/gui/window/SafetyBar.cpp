@@ -216,6 +216,7 @@ void SafetyBar::changeEvent(QEvent* event) {
 }
 
 void SafetyBar::refresh(const Telemetry& telemetry) {
+    followReset(telemetry);
     showState(telemetry);
     const bool faulted = telemetry.state == InterlockState::Faulted;
     facts_->setVisible(!faulted && factsFit_);
@@ -226,6 +227,18 @@ void SafetyBar::refresh(const Telemetry& telemetry) {
     showDevice(telemetry);
     showExposure(telemetry);
     showButtons(telemetry.state);
+}
+
+void SafetyBar::followReset(const Telemetry& telemetry) {
+    const bool left = state_ == InterlockState::Faulted && telemetry.state != InterlockState::Faulted;
+    const bool mayArm = left && telemetry.state == InterlockState::Disarmed && resetAsked_ &&
+                        !controller_.stoppedSince(*resetAsked_) && FaultBanner::mayArmNext(cause_);
+    if (left) resetAsked_.reset();
+    if (mayArm) emit faultReset(drove_);
+    if (telemetry.state == InterlockState::Faulted)
+        cause_ = telemetry.fault;
+    else
+        drove_ = telemetry.driving;
 }
 
 void SafetyBar::showState(const Telemetry& telemetry) {
@@ -348,7 +361,7 @@ void SafetyBar::showButtons(InterlockState state) {
         action_->setMeaning(tr(kActions[2]), true);
         action_->setToolTip(
             tr("Checks the devices again and searches for an unplugged one. When the cause is gone the bench is "
-               "disarmed, not armed."));
+               "disarmed, and arming is asked for where nothing else must be checked first."));
     } else if (isOn(state)) {
         action_->setMeaning(tr(kActions[1]), false);
         action_->setToolTip(tr("Ends the output and disarms the bench."));
@@ -379,11 +392,16 @@ bool SafetyBar::canHold(bool hold) const { return pause_->isEnabled() && paused_
 void SafetyBar::pressAction() {
     if (!action_->listens()) return;
     if (state_ == InterlockState::Faulted)
-        controller_.resetFault();
+        resetFault();
     else if (state_ == InterlockState::Disarmed)
         emit armRequested();
     else
         controller_.disarm();
+}
+
+void SafetyBar::resetFault() {
+    resetAsked_ = controller_.mark();
+    controller_.resetFault();
 }
 
 void SafetyBar::pressPause() {

@@ -46,6 +46,8 @@ public:
     void setPauseInstead(std::optional<PauseInstead> instead);
     /// Does the same as the button Pause (true) or Resume (false).
     void holdOutput(bool hold);
+    /// Does the same as the button Reset.
+    void resetFault();
     /// True if Pause (true) or Resume (false) would have an effect, as of the last refresh().
     [[nodiscard]] bool canHold(bool hold) const;
     /// True if no train comes until Resume.
@@ -56,6 +58,9 @@ public:
 
 signals:
     void armRequested();
+    /// The operator's reset succeeded, no stop came since, and the output may be armed again. `drove`: what drove it
+    /// when the fault came.
+    void faultReset(tacto::DriveSource drove);
     void detailsRequested();  ///< the user wants to see the details of a fault
     void resumed();           ///< resumed by hand
 
@@ -68,6 +73,7 @@ private:
     [[nodiscard]] QWidget* buildBlindFacts();
     void showBlind(const Telemetry& telemetry);
     void giveRoom();
+    void followReset(const Telemetry& telemetry);
     void showState(const Telemetry& telemetry);
     [[nodiscard]] QString protocol() const;
     [[nodiscard]] QString closedWords() const;
@@ -108,6 +114,9 @@ private:
     bool refused_ = false;  // the newest train was refused
     bool factsFit_ = true;
     int pulse_ = 0;  ///< frames left of the flash for the last train
+    std::optional<StopMark> resetAsked_;
+    std::optional<FaultCause> cause_;
+    DriveSource drove_ = DriveSource::Off;  // as of the last refresh without a fault
     InterlockState state_ = InterlockState::Disconnected;
     InterlockState shown_ = InterlockState::Disconnected;
 };

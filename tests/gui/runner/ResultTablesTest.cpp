@@ -151,6 +151,20 @@ TEST(NextSteps, FollowFromWhatWasFound) {
                 ElementsAre(NextStep::Sign, NextStep::Report, NextStep::Session));
 }
 
+TEST(NextSteps, AfterAFaultTheWayBackComesFirst) {
+    RecordProperty("hazard", "H12");
+    auto run = finished({{"kind", "load-safety"}}, ScriptVerdict::None);
+    run.result.outcome.error = Error{ErrorCode::Device, "the stimulator is unplugged"};
+    run.result.stoppedBySafety = run.result.leftInFault = true;
+    run.order.uris = {*DeviceUri::parse("sciencemode:"), *DeviceUri::parse("capture:/a?fault=open")};
+    EXPECT_THAT(gui::nextStepsAfter(run),
+                ElementsAre(NextStep::ResetFault, NextStep::ChangeSettings, NextStep::Report, NextStep::Session));
+    run.order.uris = {*DeviceUri::parse("sim:finger"), *DeviceUri::parse("sim:stimulator?gain=1&fault=open@3s")};
+    EXPECT_EQ(gui::nextStepsAfter(run).front(), NextStep::WithoutFault);
+    run.result.stoppedBySafety = run.result.leftInFault = false;
+    EXPECT_EQ(gui::nextStepsAfter(run).front(), NextStep::ChangeSettings) << "a mistake in a script";
+}
+
 TEST(NextSteps, StandInRowsWhereOneHasNoRoom) {
     gui::NextStepBar bar;
     bar.show({NextStep::Sign, NextStep::SafetyCheck, NextStep::Check, NextStep::Session});

@@ -10,6 +10,8 @@
 
 #include "app/gui/runner/SimulatedBenchDialog.h"
 #include "app/gui/runner/WiringPanel.h"
+#include "app/gui/theme/Text.h"
+#include "core/electrode/Load.h"
 #include "tests/gui/Person.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Support.h"
@@ -106,6 +108,53 @@ TEST_F(Wiring, EveryFaultOfTheDialogIsAnAddressThatOpens) {
         EXPECT_EQ(panel.refused(), "") << devices().text().toStdString();
     }
     EXPECT_GT(faults, 5);
+}
+
+TEST_F(Wiring, TheDialogBeginsWithWhatIsThereAndFaultsAreTakenOutAgain) {
+    std::mt19937 random(49);
+    const auto pick = [&](auto... words) {
+        const std::string all[] = {words...};
+        return all[std::uniform_int_distribution<std::size_t>(0, sizeof...(words) - 1)(random)];
+    };
+    for (int round = 0; round < 12; ++round) {
+        const auto without = fmt::format("sim:stimulator?mode={}&gain={}&load={}", pick("voltage", "current"),
+                                         pick("1", "0.97", "1.25"), pick("500ohm", "1kohm", "200ohm+10kohm||50nF"));
+        const auto fault = fmt::format("&fault={}@{}s", pick("open", "short", "drift"), pick("3", "0.5", "120"));
+        devices().setText(QString::fromStdString(without + fault + " sim:oscilloscope"));
+        EXPECT_EQ(panel.refused(), "");
+        for (auto* action : panel.findChild<QToolButton*>()->menu()->actions())
+            if (action->text().remove('&').contains("faults")) action->trigger();
+        auto* dialog = panel.findChild<gui::SimulatedBenchDialog*>();
+        ASSERT_NE(dialog, nullptr);
+        click(*find<QPushButton>(*dialog, "Use"));
+        ASSERT_IN_TIME(comesTrue([&] { return panel.findChild<gui::SimulatedBenchDialog*>() == nullptr; }));
+        const auto told = [this] { return gui::devicesOf(devices().text()).value(); };
+        const auto wanted = DeviceUri::parse(without + fault).value(), plain = DeviceUri::parse(without).value();
+        const auto loadOf = [](const DeviceUri& uri) { return parseLoad(uri.parameters[2].second).value().text(); };
+        ASSERT_EQ(told()[0].parameters.size(), 4U) << devices().text().toStdString();
+        EXPECT_EQ(loadOf(told()[0]), loadOf(wanted));
+        for (const std::size_t same : {0U, 1U, 3U}) EXPECT_EQ(told()[0].parameters[same], wanted.parameters[same]);
+        EXPECT_EQ(devices().cursorPosition(), 0) << "a long address shows its beginning";
+        panel.removeFaults();
+        EXPECT_FALSE(std::ranges::any_of(told(), gui::simulatesFault));
+        EXPECT_EQ(told()[0].parameters.size(), 3U);
+        EXPECT_EQ(told()[0].parameters[1], plain.parameters[1]);
+    }
+}
+
+TEST_F(Wiring, TheDialogOffersOnlyTheDevicesThatTheProtocolNeeds) {
+    ProtocolDeclaration declaration;
+    declaration.needs = {Role::Stimulator, Role::Oscilloscope};
+    panel.show(declaration);
+    for (auto* action : panel.findChild<QToolButton*>()->menu()->actions())
+        if (action->text().remove('&').contains("faults")) action->trigger();
+    auto* dialog = panel.findChild<gui::SimulatedBenchDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    const auto* faults = dialog->findChild<QComboBox*>("fault");
+    for (int i = 0; i < faults->count(); ++i) EXPECT_FALSE(faults->itemText(i).contains("fingertip"));
+    EXPECT_GT(faults->count(), 5);
+    click(*find<QPushButton>(*dialog, "Use"));
+    EXPECT_FALSE(devices().text().contains("finger")) << devices().text().toStdString();
 }
 
 }  // namespace
