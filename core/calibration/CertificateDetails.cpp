@@ -5,6 +5,7 @@
 #include "core/base/Csv.h"
 #include "core/base/JsonText.h"
 #include "core/base/Printable.h"
+#include "core/base/WholeFile.h"
 #include "core/calibration/ChainedLines.h"
 
 namespace tacto {
@@ -21,17 +22,13 @@ std::string detailKeys(bool laboratoryAlone) {
     return all;
 }
 
-Result<void> readInto(CertificateDetails& details, const std::filesystem::path& file, bool laboratoryAlone) {
-    const auto text = readTextFile(file);
-    if (!text) return failure(text);
-    const auto name = file.string();
-    const auto document = parseJson(*text, name);
-    if (!document) return failure(document);
-    if (!document->is_object()) {
+Result<void> readInto(CertificateDetails& details, const nlohmann::json& document, const std::string& name,
+                      bool laboratoryAlone) {
+    if (!document.is_object()) {
         return fail(ErrorCode::ParseError, "{}: an object of texts is expected, with the keys {}", name,
                     detailKeys(laboratoryAlone));
     }
-    for (const auto& [key, value] : document->items()) {
+    for (const auto& [key, value] : document.items()) {
         const auto known = std::ranges::find(kCertificateDetails, key, &CertificateDetail::key);
         if (known == kCertificateDetails.end() || (laboratoryAlone && !known->ofLaboratory)) {
             return fail(ErrorCode::ParseError, "{}: the key \"{}\" is {}; {} are accepted{}", name, printable(key),
@@ -53,6 +50,25 @@ Result<void> readInto(CertificateDetails& details, const std::filesystem::path& 
     return {};
 }
 
+Result<void> readInto(CertificateDetails& details, const std::filesystem::path& file, bool laboratoryAlone) {
+    const auto text = readTextFile(file);
+    if (!text) return failure(text);
+    const auto document = parseJson(*text, file.string());
+    return document ? readInto(details, *document, file.string(), laboratoryAlone) : failure(document);
+}
+
+Result<void> judgeDays(const CertificateDetails& details, const std::string& name, CalibrationDate today) {
+    if (const auto received = parseDate(details.received); received && *received > today) {
+        return invalid("{}: \"received\" is {}, after the calibration on {}; that day or an earlier one is expected",
+                       name, details.received, dateText(today));
+    }
+    if (const auto issued = parseDate(details.issued); issued && *issued < today) {
+        return invalid("{}: \"issued\" is {}, before the calibration on {}; that day or a later one is expected", name,
+                       details.issued, dateText(today));
+    }
+    return {};
+}
+
 }  // namespace
 
 std::filesystem::path certificateDetailsFile() { return labFile("certificate-details.json"); }
@@ -66,15 +82,26 @@ Result<CertificateDetails> certificateDetails(const std::filesystem::path& file,
     if (!file.empty()) {
         if (auto read = readInto(details, file, false); !read) return failure(read);
     }
-    if (const auto received = parseDate(details.received); received && *received > today) {
-        return invalid("{}: \"received\" is {}, after the calibration on {}; that day or an earlier one is expected",
-                       file.string(), details.received, dateText(today));
-    }
-    if (const auto issued = parseDate(details.issued); issued && *issued < today) {
-        return invalid("{}: \"issued\" is {}, before the calibration on {}; that day or a later one is expected",
-                       file.string(), details.issued, dateText(today));
-    }
+    if (auto days = judgeDays(details, file.string(), today); !days) return failure(days);
     return details;
+}
+
+Result<void> keepCertificateDetails(const CertificateDetails& details, const std::filesystem::path& file,
+                                    CalibrationDate today) {
+    const std::string name = "the certificate";
+    CertificateDetails laboratory, order, read;
+    for (const auto& detail : kCertificateDetails)
+        (detail.ofLaboratory ? laboratory : order).*detail.member = details.*detail.member;
+    const auto own = toJson(laboratory), ordered = toJson(order);
+    for (const auto* part : {&own, &ordered})
+        if (auto well = readInto(read, *part, name, false); !well) return well;
+    if (auto days = judgeDays(read, name, today); !days) return days;
+    if (auto now = certificateDetails({}, today); !now) return failure(now);  // a file that cannot be read stays
+    const auto kept = certificateDetailsFile();
+    std::error_code ignored;
+    std::filesystem::create_directories(kept.parent_path(), ignored);
+    if (auto written = writeWholeFile(kept, dumpJson(own)); !written) return written;
+    return writeWholeFile(file, dumpJson(ordered));
 }
 
 nlohmann::json toJson(const CertificateDetails& details) {

@@ -61,6 +61,11 @@ inline constexpr std::array<CertificateDetail, 14> kCertificateDetails{
 /// day of calibration) or a certificate issued before it.
 [[nodiscard]] Result<CertificateDetails> certificateDetails(const std::filesystem::path& file, CalibrationDate today);
 
+/// Keeps the laboratory's own details in certificateDetailsFile() and those of an order in `file`. Errors: as
+/// certificateDetails(); nothing is written then.
+[[nodiscard]] Result<void> keepCertificateDetails(const CertificateDetails& details, const std::filesystem::path& file,
+                                                  CalibrationDate today);
+
 /// Returns the details that are not empty, by their keys.
 [[nodiscard]] nlohmann::json toJson(const CertificateDetails& details);
 

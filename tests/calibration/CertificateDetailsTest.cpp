@@ -61,6 +61,27 @@ TEST_F(CertificateDetailsFiles, EveryKeyIsReadAndWritten) {
     EXPECT_EQ(toJson(*read), all);
 }
 
+TEST_F(CertificateDetailsFiles, WhatAFormEntersIsKeptInBothFilesOrInNone) {
+    RecordProperty("hazard", "H8");
+    const auto file = folder_.path() / "item.json";
+    CertificateDetails entered;
+    entered.laboratory = "Lab";
+    entered.customer = "C";
+    ASSERT_TRUE(keepCertificateDetails(entered, file, kToday));
+    EXPECT_EQ(certificateDetails(file, kToday).value(), entered);
+    EXPECT_EQ(certificateDetails({}, kToday).value().customer, "");
+    for (const auto wrong :
+         {&CertificateDetails::customer, &CertificateDetails::issued, &CertificateDetails::laboratory}) {
+        auto changed = entered;
+        changed.contact = "changed";
+        changed.*wrong = "1999-\n01";
+        EXPECT_FALSE(keepCertificateDetails(changed, file, kToday));
+        EXPECT_EQ(certificateDetails(file, kToday).value(), entered);
+    }
+    write(certificateDetailsFile(), "{");
+    EXPECT_FALSE(keepCertificateDetails(entered, file, kToday)) << "a file that cannot be read is not replaced";
+}
+
 TEST_F(CertificateDetailsFiles, WhatIsNotAcceptedIsNamedInOneSentence) {
     RecordProperty("hazard", "H8");
     EXPECT_THAT(refused(folder_.path() / "none.json"), HasSubstr("none.json"));

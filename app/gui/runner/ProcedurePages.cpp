@@ -2,6 +2,7 @@
 
 #include <QScrollArea>
 
+#include "app/gui/calibrate/CertificatePart.h"
 #include "app/gui/calibrate/WiringPage.h"
 #include "app/gui/runner/NotesPanel.h"
 #include "app/gui/runner/RunViews.h"
@@ -13,6 +14,7 @@
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
+#include "core/kinds/ResultKinds.h"
 
 namespace tacto::gui {
 
@@ -137,6 +139,8 @@ QWidget* ProcedurePages::buildSettings(DayNotes& day) {
     below->addWidget(form_);
     notes_ = new NotesPanel(day, parts);
     below->addWidget(notes_);
+    certificate_ = new CertificatePart(parts);
+    below->addWidget(certificate_);
     auto* fields = dressed(scrollingRows(formColumn(parts), page));
     worst_ = new WorstPage(page);
     row->addWidget(fields, 2);
@@ -149,6 +153,7 @@ void ProcedurePages::offer(const ProtocolDeclaration& declaration) {
     wiring_->show(declaration);
     form_->show(declaration);
     const bool drives = declaration.needs.contains(Role::Stimulator);
+    certificate_->setVisible(resultTraits(declaration.kind).kind == ResultKind::StimulatorCalibration);
     drawing_->setVisible(drives && declaration.needs.contains(Role::Oscilloscope));
     worst_->setVisible(drives);  // without a stimulator nothing is judged
 }
@@ -160,7 +165,7 @@ void ProcedurePages::showStep(Step step) {
 
 void ProcedurePages::setChangeable(bool changeable) {
     for (QWidget* part : {static_cast<QWidget*>(form_), &form_->referencePart(), static_cast<QWidget*>(wiring_),
-                          static_cast<QWidget*>(notes_)})
+                          static_cast<QWidget*>(notes_), static_cast<QWidget*>(certificate_)})
         part->setEnabled(changeable);
 }
 

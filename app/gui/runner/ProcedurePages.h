@@ -8,6 +8,7 @@
 
 namespace tacto::gui {
 
+class CertificatePart;
 class DayNotes;
 class NotesPanel;
 class FieldForm;
@@ -34,6 +35,7 @@ public:
     [[nodiscard]] FieldForm& form() noexcept { return *form_; }
     [[nodiscard]] WorstPage& worst() noexcept { return *worst_; }
     [[nodiscard]] RunViews& views() noexcept { return *views_; }
+    [[nodiscard]] const CertificatePart& certificate() const noexcept { return *certificate_; }
     [[nodiscard]] SignPage& sign() noexcept { return *sign_; }
 
 private:
@@ -45,6 +47,7 @@ private:
     WiringPage* drawing_ = nullptr;
     FieldForm* form_ = nullptr;
     NotesPanel* notes_ = nullptr;
+    CertificatePart* certificate_ = nullptr;  ///< shown for the calibration of a stimulator
     WorstPage* worst_ = nullptr;
     RunViews* views_ = nullptr;
     SignPage* sign_ = nullptr;

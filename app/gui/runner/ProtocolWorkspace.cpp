@@ -6,6 +6,7 @@
 #include <QShortcut>
 #include <QVBoxLayout>
 
+#include "app/gui/calibrate/CertificatePart.h"
 #include "app/gui/runner/ProcedurePath.h"
 #include "app/gui/runner/PromptPanel.h"
 #include "app/gui/runner/ProtocolHead.h"
@@ -257,6 +258,7 @@ Result<RunOrder> ProtocolWorkspace::order() {
     if (!settings) return failure(settings);
     auto order = controller_.orderOf(source_, *declaration_, std::move(*settings));
     if (auto filled = pages_->wiring().fill(order); !filled) return failure(filled);
+    pages_->certificate().fill(order);
     return order;
 }
 
