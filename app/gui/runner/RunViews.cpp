@@ -10,12 +10,14 @@
 #include "app/gui/runner/LoadRows.h"
 #include "app/gui/runner/ResultHead.h"
 #include "app/gui/runner/ResultTables.h"
+#include "app/gui/runner/SheetView.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/PlotPicture.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/theme/ToolRow.h"
+#include "app/report/FigureDrawing.h"
 #include "app/report/TableContent.h"
 
 namespace tacto::gui {
@@ -90,6 +92,13 @@ QWidget* RunViews::buildPlots() {
     plots_ = rowIn(*holder);
     plane_ = new TrialPlane(holder);
     plane_->addTitle();
+    figured_ = new QWidget(holder);
+    auto* figure = columnIn(*figured_);
+    figureTitle_ =
+        makeLabel({}, {.name = "figureTitle", .size = TextSize::Small, .strong = true, .wraps = true}, figured_);
+    sheet_ = new SheetView(figured_);
+    figure->addWidget(figureTitle_);
+    figure->addWidget(sheet_, 1);
     loads_ = new LoadRows(holder);
     judged_ = new QSplitter(Qt::Vertical, holder);
     judged_->setObjectName("judgedLimits");
@@ -112,6 +121,7 @@ QWidget* RunViews::buildPlots() {
     setTone(*none_, Tone::Quiet);
     wave_ = new CaptureStrip(holder);
     plots_->addWidget(plane_, 3);
+    plots_->addWidget(figured_, 3);
     plots_->addWidget(loads_, 3);
     plots_->addWidget(judged_, 3);
     plots_->addWidget(calibration_, 3);
@@ -191,7 +201,7 @@ QWidget* RunViews::pictured() const {
         return judged ? static_cast<QWidget*>(&disclosed_->tracing()) : static_cast<QWidget*>(wave_);
     if (views_->currentIndex() != kPlot || plot_ == Plot::None) return nullptr;
     if (plot_ == Plot::Loads) return judged ? static_cast<QWidget*>(matrix_) : static_cast<QWidget*>(loads_);
-    return plane_;
+    return hasFigure_ ? static_cast<QWidget*>(sheet_) : plane_;
 }
 
 Still RunViews::picture() const {
@@ -264,7 +274,8 @@ void RunViews::arrange() {
     bar_->setContentsMargins(kViewSide, pad, kViewSide, pad);
     head_->setRoomy(tall || plot_ != Plot::Calibration);  // the residuals of a calibration need 300 px
     const bool judged = showsLimits();
-    plane_->setVisible(plot_ == Plot::Trials || plot_ == Plot::Slides);
+    plane_->setVisible((plot_ == Plot::Trials && !hasFigure_) || plot_ == Plot::Slides);
+    figured_->setVisible(plot_ == Plot::Trials && hasFigure_);
     calibration_->setVisible(plot_ == Plot::Calibration);
     judged_->setVisible(judged);
     placeTracing(judged);
@@ -305,6 +316,7 @@ void RunViews::begin(Plot plot, const QString& title, const nlohmann::json& para
     next_->show({});
     tables_->show({});
     session_.clear();
+    hasFigure_ = false;
     matrix_->show({});
     disclosed_->clear();
     log_->clear();
@@ -387,7 +399,22 @@ QString RunViews::end(const FinishedRun& run) {
     shows([&] { next_->show(nextStepsAfter(run)); });
     showView(plot_ == Plot::None && !tables_->empty() ? kTables : kPlot);
     arrange();
+    if (plot_ == Plot::Trials && !session_.empty()) showFigure(session_);
     return odd;
+}
+
+/// A drift is read from amplitudes over the trials: the plane of the trials shows where they were, not what was found.
+void RunViews::showFigure(const std::filesystem::path& session) {
+    reading_.start(
+        this, [session] { return std::make_shared<const SessionFigure>(readFigure(session)); },
+        [this, session](const std::shared_ptr<const SessionFigure>& found) {
+            if (session != session_ || found->planeOfTrials || !found->figure) return;
+            sheet_->show(drawFigure(*found->figure, simulated_));
+            figureTitle_->setText(found->caption);
+            nameWidget(*sheet_, "figure", found->caption);
+            hasFigure_ = true;
+            arrange();
+        });
 }
 
 }  // namespace tacto::gui

@@ -28,6 +28,7 @@ class LoadRows;
 class PictureTools;
 class ResultHead;
 class ResultTables;
+class SheetView;
 
 class RunViews final : public QWidget {
     Q_OBJECT
@@ -72,6 +73,7 @@ private:
     void showPictureTools();
     void arrange();
     void arrangeSoon();
+    void showFigure(const std::filesystem::path& session);
     /// Position of a safety check's tracing.
     enum class Tracing { Beside, Below, OwnView };
     void placeTracing(bool judged);
@@ -90,6 +92,10 @@ private:
     QStackedWidget* views_ = nullptr;
     QBoxLayout* plots_ = nullptr;
     TrialPlane* plane_ = nullptr;
+    QWidget* figured_ = nullptr;  // after the end replaces the plane by the figure that the result is read from
+    QLabel* figureTitle_ = nullptr;
+    SheetView* sheet_ = nullptr;
+    bool hasFigure_ = false;
     LoadRows* loads_ = nullptr;            // replaces the plane if a protocol measures loads
     QSplitter* judged_ = nullptr;          // the limits and their results
     LimitMatrixView* matrix_ = nullptr;    // the limits for each load

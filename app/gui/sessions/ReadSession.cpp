@@ -18,19 +18,6 @@ namespace tacto::gui {
 
 namespace {
 
-/// Report figures come from a script; a figure that cannot be drawn is ignored.
-void takeItem(const nlohmann::json& item, const SessionReader& reader, ReadSession& session) {
-    const auto kind = textOr(item, "kind");
-    const auto drawn = valueOr(item, "figure");
-    if (kind != "figure") return;
-    if (textOr(drawn, "type") == "plane") session.planeOfTrials = true;
-    if (session.figure || textOr(drawn, "type") == "plane") return;
-    auto figure = parseFigure(qtObject(drawn));
-    if (!figure || !resolveCaptures(*figure, [&](qint64 id) { return reader.capture(id); })) return;
-    session.figure = std::move(*figure);
-    session.caption = qtext(textOr(item, "caption"));
-}
-
 std::size_t columnOf(const SessionStream& stream, std::string_view name) {
     for (std::size_t c = 0; c < stream.columns.size(); ++c)
         if (stream.columns[c] == name) return c;
@@ -65,6 +52,8 @@ Result<void> readCourse(const SessionReader& reader, ReadSession& session) {
     return {};
 }
 
+constexpr int kShownDigits = 4;
+
 /// The commands delivered for one capture: their least and largest values.
 struct CommandRange {
     double low = kNaN, high = kNaN;
@@ -75,8 +64,10 @@ struct CommandRange {
     }
     [[nodiscard]] QString text(const QString& unit) const {
         if (!std::isfinite(low)) return {};
-        const auto most = settingText(high, unit);
-        return low == high ? most : QObject::tr("%1 to %2").arg(settingText(low, {}), most);
+        // A calibration commands 499.999 ms for 500 ms.
+        const auto set = [](double value) { return QString::number(value, 'g', kShownDigits).toDouble(); };
+        const auto most = settingText(set(high), unit);
+        return set(low) == set(high) ? most : QObject::tr("%1 to %2").arg(settingText(set(low), {}), most);
     }
 };
 
@@ -164,7 +155,7 @@ Result<ReadSession> readSession(const std::filesystem::path& path) {
     if (!captures.empty())
         if (auto done = readCommands(*reader, session); !done) return failure(done);
     if (auto done = take(reader->reportItems(), items); !done) return failure(done);
-    for (const auto& item : items) takeItem(item.body, *reader, session);
+    static_cast<SessionFigure&>(session) = figureIn(items, *reader);
     if (session.figure || session.planeOfTrials) return session;
     if (auto read = readCourse(*reader, session); !read) return failure(read);
     return session;

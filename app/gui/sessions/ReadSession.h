@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "app/gui/runner/SheetView.h"
 #include "app/gui/theme/MarkLines.h"
 #include "app/report/CompareSessions.h"
-#include "app/report/Figure.h"
 #include "core/base/Result.h"
 #include "core/base/Stream.h"
 #include "core/session/SessionSignature.h"
@@ -33,7 +33,7 @@ struct ReadCapture : SessionCaptureInfo {
     QString command;  ///< "40 V every 500 ms"; of a trial with several, "10 to 40 V every 500 ms"
 };
 
-struct ReadSession : ComparedSession {
+struct ReadSession : ComparedSession, SessionFigure {
     std::filesystem::path path;
     std::vector<CheckedSignature> signatures;  ///< of its reports
     QString fixed;           ///< a sentence that says why the labels cannot be changed; empty if they can
@@ -44,10 +44,7 @@ struct ReadSession : ComparedSession {
     std::vector<SessionRow> log;
     std::vector<SessionStreamInfo> streams;
     std::vector<ReadCapture> captures;
-    std::optional<Figure> figure;  ///< the report's first figure that is not a plane of trials
-    QString caption;               ///< the figure's caption
-    bool planeOfTrials = false;    ///< draw the trials' amplitude against their interval
-    SessionCourse course;          ///< filled only without figure and plane
+    SessionCourse course;  ///< filled only without figure and plane
 };
 /// Errors: as SessionReader.
 [[nodiscard]] Result<ReadSession> readSession(const std::filesystem::path& path);

@@ -1,8 +1,8 @@
 #include "app/gui/sessions/SessionPreview.h"
 
-#include <QPainter>
 #include <algorithm>
 
+#include "app/gui/runner/SheetView.h"
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/PlotLegend.h"
@@ -35,25 +35,6 @@ QCPGraph* addCurve(QCustomPlot& plot, QCPAxis* values, const std::vector<double>
     }
     graph->setData(x, shown, true);
     return graph;
-}
-
-void SheetView::show(std::unique_ptr<PlotSheet> sheet) {
-    sheet_ = std::move(sheet);
-    update();
-}
-
-QSize SheetView::minimumSizeHint() const { return {0, fontMetrics().height() * kMinLines}; }
-
-void SheetView::paintEvent(QPaintEvent* /*event*/) {
-    if (!sheet_) return;
-    const auto size = sheet_->size();
-    const double scale = std::min(double(width()) / size.width(), double(height()) / size.height());
-    QCPPainter painter(this);
-    painter.setRenderHint(QPainter::Antialiasing);
-    const QRectF paper(0, 0, size.width() * scale, size.height() * scale);
-    painter.fillRect(paper, Qt::white);  // white paper, as in print
-    painter.scale(scale, scale);
-    sheet_->paint(painter);
 }
 
 SessionPreview::SessionPreview(QWidget* parent)

@@ -9,30 +9,15 @@
 
 #include "app/gui/sessions/ReadSession.h"
 #include "app/gui/theme/MarkLines.h"
-#include "app/report/PlotSheet.h"
 
 namespace tacto::gui {
 
+class SheetView;
 class TrialPlane;
 
 /// Adds values over time, thinned to what is visible.
 QCPGraph* addCurve(QCustomPlot& plot, QCPAxis* values, const std::vector<double>& t, const std::vector<double>& y,
                    const QString& name);
-
-/// A sheet of the report, as large as space allows.
-class SheetView final : public QWidget {
-    Q_OBJECT
-public:
-    using QWidget::QWidget;
-    void show(std::unique_ptr<PlotSheet> sheet);
-    [[nodiscard]] QSize minimumSizeHint() const override;
-
-protected:
-    void paintEvent(QPaintEvent* event) override;
-
-private:
-    std::unique_ptr<PlotSheet> sheet_;
-};
 
 class SessionPreview final : public QWidget {
     Q_OBJECT
