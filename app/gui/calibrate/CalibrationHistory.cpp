@@ -66,7 +66,7 @@ CalibrationHistory::CalibrationHistory(QWidget* parent) : QWidget(parent) {
 void CalibrationHistory::list(const CalibrationBook& book, const std::optional<StimulatorId>& stimulator) {
     const auto all = stimulator ? book.history(stimulator->serial) : std::vector<StoredCalibration>();
     empty_->setText(!stimulator
-                        ? tr("No stimulator has been open yet. Calibrated stimulators appear here.")
+                        ? tr("Here each stimulator has its calibrations over time.")
                         : tr("Stimulator %1 was never calibrated. Calibrate measures what it delivers and keeps "
                              "the result here, with the instruments it rests on and the day until which it "
                              "holds.")

@@ -102,11 +102,19 @@ int DisclosedPanel::wholeHeight() const {
 }
 
 void DisclosedPanel::showOutputs(Outputs outputs) {
-    const bool below = outputs == Outputs::Below;
+    narrow_ = outputs == Outputs::BelowNarrow;
+    const bool below = narrow_ || outputs == Outputs::Below;
     layout_->setDirection(below ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
     outputs_->setSizePolicy(below ? QSizePolicy::Preferred : QSizePolicy::Maximum,
                             below ? QSizePolicy::Maximum : QSizePolicy::Preferred);
     outputs_->setVisible(outputs != Outputs::Nowhere);
+    fitWidth();
+}
+
+void DisclosedPanel::fitWidth() {
+    const bool whole = !narrow_ && table_->rowCount() > 0;
+    area_->setHorizontalScrollBarPolicy(narrow_ ? Qt::ScrollBarAsNeeded : Qt::ScrollBarAlwaysOff);
+    area_->setMinimumWidth(whole ? table_->maximumWidth() + area_->verticalScrollBar()->sizeHint().width() : 1);
 }
 
 void DisclosedPanel::clear() {
@@ -149,7 +157,7 @@ void DisclosedPanel::show(const nlohmann::json& disclosed) {
         }
         fillRecordTable(*table_, columns, all.rows);
         layOutRecordTable(*table_);
-        area_->setMinimumWidth(table_->maximumWidth() + area_->verticalScrollBar()->sizeHint().width());
+        fitWidth();
         area_->setMaximumHeight(table_->maximumHeight());
     }
     area_->setVisible(any);

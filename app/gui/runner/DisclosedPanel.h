@@ -28,8 +28,9 @@ public:
     /// `disclosed`: as in the results of load-safety, with one column per load; any other value shows nothing.
     void show(const nlohmann::json& disclosed);
     using QWidget::show;
-    /// Shows the outputs next to the tracing, below it, or not at all if there is no room for both.
-    enum class Outputs { Beside, Below, Nowhere };
+    /// Shows the outputs next to the tracing, below it (scrolling across in a narrow page), or not at all if there is
+    /// no room for both.
+    enum class Outputs { Beside, Below, BelowNarrow, Nowhere };
     void showOutputs(Outputs outputs);
     /// Returns the smallest height at which a tracing is readable.
     [[nodiscard]] int leastHeight() const;
@@ -40,7 +41,9 @@ public:
     [[nodiscard]] CaptureStrip& tracing() const { return *wave_; }
 
 private:
+    void fitWidth();
     QBoxLayout* layout_;
+    bool narrow_ = false;
     QWidget* outputs_;
     QTableWidget* table_;
     QScrollArea* area_;

@@ -29,6 +29,7 @@ constexpr int kLineNote = Qt::UserRole;       // the text below a limit's title
 constexpr int kLineUnit = Qt::UserRole + 3;   // the limit's unit
 constexpr int kRow = 36, kHighRow = 44, kIconSize = 14, kPad = 8, kHeaderPad = 5;
 constexpr int kLimitChars = 30, kLoadChars = 9;
+const QString kNoteParts = QStringLiteral(" · ");
 
 QString wordsOf(const json& value) {
     return value.is_string() ? visible(QString::fromStdString(value.get<std::string>())) : QString();
@@ -52,7 +53,11 @@ public:
                               painter->fontMetrics().elidedText(text, Qt::ElideRight, half.width()));
         };
         line(index.data().toString(), TextSize::Body, c.text, false);
-        line(index.data(kLineNote).toString(), TextSize::Small, c.quiet, true);
+        auto note = index.data(kLineNote).toString();
+        // Where there is little room, the verdict is left to the row's cells.
+        if (QFontMetrics(textFont(TextSize::Small)).horizontalAdvance(note) > area.width())
+            note = note.section(kNoteParts, 1);
+        line(note, TextSize::Small, c.quiet, true);
         painter->setPen(c.grid);
         painter->drawLine(option.rect.bottomLeft(), option.rect.bottomRight());
         painter->restore();
@@ -252,7 +257,7 @@ void LimitMatrixView::choose(int row, int column) {
 void LimitMatrixView::addLine(int row, const MatrixBlock::Row& line) {
     auto* head = new QTableWidgetItem(line.name);
     head->setData(kLineUnit, line.unit);
-    head->setData(kLineNote, verdictCell(line.verdict) + " · " + line.note);
+    head->setData(kLineNote, verdictCell(line.verdict) + kNoteParts + line.note);
     head->setData(kCopiedTextRole, line.name + ", " + head->data(kLineNote).toString());
     head->setToolTip(QStringList{line.name, line.limit, line.set, line.source, line.verdict}.join(" · "));
     setItem(row, 0, head);

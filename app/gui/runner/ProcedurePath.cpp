@@ -20,6 +20,7 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kPathWidth = 240, kPathPad = 16;
+constexpr int kMinColumn = 480;     // of a column with head, six steps, a sentence and Run
 constexpr int kMaxRoomDivisor = 3;  // the column takes at most 1/kMaxRoomDivisor of the width
 
 }  // namespace
@@ -89,8 +90,9 @@ void ProcedurePath::layAcross() {
     padded(&panel_->words());
 }
 
-bool ProcedurePath::fit(int room) {
-    const bool across = scaledPx(kPathWidth) * kMaxRoomDivisor > room;
+bool ProcedurePath::fit(QSize room) {
+    const bool low = room.height() < scaledPx(kMinColumn);
+    const bool across = low || scaledPx(kPathWidth) * kMaxRoomDivisor > room.width();
     if (std::exchange(across_, across) != across) {
         delete layout();
         head_->setAcross(across);

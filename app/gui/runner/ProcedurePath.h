@@ -24,8 +24,9 @@ public:
     [[nodiscard]] StepList& steps() noexcept { return *steps_; }
     [[nodiscard]] RunPanel& panel() noexcept { return *panel_; }
 
-    /// Becomes a row if a column would take over a third of `room`, the owner's width. Returns true for a row.
-    bool fit(int room);
+    /// Becomes a row if a column would take over a third of the width of `room`, or would put Run below its height.
+    /// Returns true for a row.
+    bool fit(QSize room);
     /// Resets the path for a newly read procedure that has not run.
     void showNoRun(bool hasReference);
     /// Shows the steps before the run. A tick means that a step was seen, or that the run used its settings.

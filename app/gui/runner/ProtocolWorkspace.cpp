@@ -3,6 +3,8 @@
 #include <QApplication>
 #include <QFileInfo>
 #include <QLineEdit>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QShortcut>
 #include <QVBoxLayout>
 
@@ -87,7 +89,11 @@ ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString&
 }
 
 void ProtocolWorkspace::arrange() {
-    const bool across = path_->fit(widthInSight(*this));
+    const auto* parent = parentWidget();
+    while (parent != nullptr && qobject_cast<const ScrollingPage*>(parent) == nullptr) parent = parent->parentWidget();
+    const auto* page = static_cast<const ScrollingPage*>(parent);
+    const int high = page == nullptr ? height() : page->viewport()->height();
+    const bool across = path_->fit({widthInSight(*this), high});
     layout_->setDirection(across ? QBoxLayout::TopToBottom : QBoxLayout::LeftToRight);
     edge_->setFrameShape(across ? QFrame::HLine : QFrame::VLine);
 }
@@ -200,6 +206,7 @@ void ProtocolWorkspace::goTo(Step step) {
     showStep(step);
     if (step == kSign) return steps_->focusShown();  // in the field for the name Space would not stop
     if (step != kWiring && step != kReference && step != kSettings) return;
+    for (auto* area : pages_->currentWidget()->findChildren<QScrollArea*>()) area->verticalScrollBar()->setValue(0);
     if (auto* first = pages_->currentWidget()->findChild<QLineEdit*>())
         first->setFocus();
     else

@@ -247,7 +247,10 @@ void RunViews::placeTracing(bool judged) {
     const auto place = width() >= chars * kTracedFromChars ? Tracing::Beside : high ? Tracing::Below : Tracing::OwnView;
     using Outputs = DisclosedPanel::Outputs;
     const bool roomy = place != Tracing::Beside && width() >= chars * kDisclosedFromChars;
-    disclosed_->showOutputs(roomy ? Outputs::Beside : place == Tracing::Below ? Outputs::Nowhere : Outputs::Below);
+    disclosed_->showOutputs(roomy                       ? Outputs::Beside
+                            : place == Tracing::Below   ? Outputs::Nowhere
+                            : place == Tracing::OwnView ? Outputs::BelowNarrow
+                                                        : Outputs::Below);
     disclosed_->setContentsMargins(place == Tracing::Beside ? kViewSide : 0, 0, 0, 0);
     matrix_->setFillsHeight(place != Tracing::Below);
     const bool beside = place == Tracing::Beside;

@@ -196,6 +196,7 @@ void addPlotMenu(QCustomPlot& plot, const QString& name) {
     auto* copy = new QAction(QObject::tr("&Copy as picture"), &plot);
     QObject::connect(copy, &QAction::triggered, &plot, [&plot] { copyPicture(plot); });
     auto* store = new QAction(QObject::tr("&Save as…"), &plot);
+    store->setObjectName(kSavePlot);
     QObject::connect(store, &QAction::triggered, &plot, [&plot, name] { askSavePicture(plot, plot, name); });
     plot.addActions({copy, store});
     plot.setContextMenuPolicy(Qt::ActionsContextMenu);

@@ -89,7 +89,9 @@ void copyPicture(const Still& still);
 /// Asks for the file and saves; `name` is the suggested file name.
 void askSavePicture(QWidget& parent, const Still& still, const QString& name);
 
-/// Adds a context menu (also on the menu key) to copy or save the picture. `name` is the suggested file name.
+/// Adds a context menu (also on the menu key) to copy or save the picture. `name` is the suggested file name. The
+/// action that saves is named kSavePlot.
+inline constexpr const char* kSavePlot = "savePlot";
 void addPlotMenu(QCustomPlot& plot, const QString& name);
 
 /// The buttons that save, copy and enlarge a plot, the same in every workspace.

@@ -11,6 +11,7 @@
 #include <QToolButton>
 #include <QWheelEvent>
 #include <QWindow>
+#include <qcustomplot.h>
 
 #include "app/gui/theme/Theme.h"
 
@@ -99,8 +100,12 @@ bool WheelGuard::eventFilter(QObject* watched, QEvent* event) {
         return false;
     }
     if (!watched->isWidgetType()) return false;
-    const auto* widget = static_cast<QWidget*>(watched);
-    if (!isSetting(*widget) || widget->hasFocus()) return false;
+    auto* widget = static_cast<QWidget*>(watched);
+    // A plot takes every wheel event, also those that zoom nothing, and lets none through.
+    const auto* plot = qobject_cast<const QCustomPlot*>(widget);
+    const bool still = plot != nullptr && !plot->interactions().testFlag(QCP::iRangeZoom);
+    if (still) widget->setAttribute(Qt::WA_NoMousePropagation, false);
+    if (!still && (!isSetting(*widget) || widget->hasFocus())) return false;
     event->ignore();  // so that the widget around it gets the event
     return true;
 }

@@ -27,7 +27,8 @@ private:
 };
 
 /// The wheel changes only a setting that has the focus, and never gives it the focus. While the user scrolls, lists,
-/// numbers, sliders and tabs under the pointer keep their values, and the page around them scrolls (hazard H12).
+/// numbers, sliders and tabs under the pointer keep their values, and the page around them scrolls (hazard H12), as it
+/// does over a plot that does not zoom.
 class WheelGuard final : public QObject {
 public:
     /// Installs the guard for every window of the program; a second call does nothing.

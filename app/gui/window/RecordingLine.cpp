@@ -18,6 +18,8 @@ namespace tacto::gui {
 namespace {
 constexpr int kLogLines = 2000;
 constexpr int kRecordingChars = 12;  // "● recording" stays even if the message is long
+
+QString sizeText(qint64 bytes) { return QLocale::c().formattedDataSize(bytes, 1, QLocale::DataSizeSIFormat); }
 }  // namespace
 
 RecordingLine::RecordingLine(BenchController& controller, QStatusBar& bar)
@@ -64,9 +66,8 @@ void RecordingLine::refresh() {
                            .arg(seconds % 60, 2, 10, QChar('0'));
     recording_->setAccessibleDescription(QString::fromStdString(session_.string()));
     if (blind_) return sayRecording(lasts);
-    sayRecording(tr("%1 · %2 MB · saved %3 s ago")
-                     .arg(lasts)
-                     .arg(double(file.size() + wal.size()) / 1e6, 0, 'f', 1)
+    sayRecording(tr("%1 · %2 · saved %3 s ago")
+                     .arg(lasts, sizeText(file.size() + wal.size()))
                      .arg(std::max(0.0, age), 0, 'f', 1));
 }
 
@@ -86,9 +87,8 @@ void RecordingLine::sayRecording(const QString& text) {
 /// Names a finished session only if it still exists.
 void RecordingLine::sayRecorded(const std::filesystem::path& session) {
     const QFileInfo file(QString::fromStdString(session.string()));
-    sayRecording(file.exists()
-                     ? tr("Recorded to %1 · %2 MB").arg(file.fileName()).arg(double(file.size()) / 1e6, 0, 'f', 1)
-                     : tr("Nothing is being recorded"));
+    sayRecording(file.exists() ? tr("Recorded to %1 · %2").arg(file.fileName(), sizeText(file.size()))
+                               : tr("Nothing is being recorded"));
 }
 
 QString RecordingLine::shown(const QString& text) const {

@@ -90,6 +90,12 @@ Workspaces::Workspaces(BenchController& controller, CalibrationBook& calibration
 
 /// A file counts as opened once its content is shown, which for all kinds is later than it is asked for.
 void Workspaces::connectFiles() {
+    // What a run recorded is a file of the operator like one that was opened; a study's sessions stay in the study.
+    connect(&controller_, &BenchController::finished, this, [](const std::shared_ptr<const FinishedRun>& run) {
+        const auto& session = run->result.session;
+        if (!session.empty() && (!run->order.out.empty() || session.parent_path() == userSessionsFolder()))
+            rememberRecentFile(qtext(session.string()), true);
+    });
     connect(&controller_, &BenchController::changed, this, [this] {
         const auto open = controller_.open();
         recording_.clear();
@@ -200,9 +206,11 @@ bool Workspaces::showsScope() const { return currentIndex() == kLive && livePage
 void Workspaces::takeFocus() {
     auto* page = currentWidget();
     for (auto* next = page->nextInFocusChain(); next != page; next = next->nextInFocusChain()) {
-        const bool takesText = next->inherits("QLineEdit") || next->inherits("QAbstractSpinBox") ||
-                               next->inherits("QPlainTextEdit") || next->inherits("QTextEdit");
-        if (!page->isAncestorOf(next) || takesText || !next->isVisible() || !next->isEnabled()) continue;
+        // In a list of choices, such as the sessions' filters, an arrow would change a setting.
+        const bool takesKeys = next->inherits("QLineEdit") || next->inherits("QAbstractSpinBox") ||
+                               next->inherits("QPlainTextEdit") || next->inherits("QTextEdit") ||
+                               next->inherits("QComboBox");
+        if (!page->isAncestorOf(next) || takesKeys || !next->isVisible() || !next->isEnabled()) continue;
         if ((next->focusPolicy() & Qt::TabFocus) != 0) return next->setFocus(Qt::ShortcutFocusReason);
     }
     page->setFocus(Qt::ShortcutFocusReason);  // without any control the page itself takes the focus
@@ -257,17 +265,29 @@ PictureTools* Workspaces::pictures() const {
     return shownIn<PictureTools>(*currentWidget(), [](const auto& tools) { return canBePressed(tools.save()); });
 }
 
-bool Workspaces::hasPicture() const { return showsScope() ? scope_->hasPicture() : pictures() != nullptr; }
+/// The first plot in sight of a page that has no picture tools.
+QCustomPlot* Workspaces::plot() const {
+    return shownIn<QCustomPlot>(*currentWidget(), [](const auto& plot) {
+        return canBePressed(plot) &&
+               plot.template findChild<QAction*>(kSavePlot, Qt::FindDirectChildrenOnly) != nullptr;
+    });
+}
+
+bool Workspaces::hasPicture() const {
+    return showsScope() ? scope_->hasPicture() : pictures() != nullptr || plot() != nullptr;
+}
 
 void Workspaces::askSavePicture() {
     if (showsScope()) return scope_->askSavePicture();
-    if (auto* tools = pictures()) tools->save().click();
+    if (auto* tools = pictures()) return tools->save().click();
+    if (auto* shown = plot()) shown->findChild<QAction*>(kSavePlot, Qt::FindDirectChildrenOnly)->trigger();
 }
 
 std::optional<QString> Workspaces::savePicture(const QString& path) const {
     if (showsScope()) return scope_->savePicture(path);
-    const auto* tools = pictures();
-    return tools == nullptr ? std::nullopt : gui::savePicture(tools->picture(), path);
+    if (const auto* tools = pictures()) return gui::savePicture(tools->picture(), path);
+    auto* shown = plot();
+    return shown == nullptr ? std::nullopt : gui::savePicture(*shown, path);
 }
 
 ProtocolWorkspace* Workspaces::shownRunner() const {

@@ -11,6 +11,8 @@
 #include "app/gui/calibrate/CalibrationBook.h"
 #include "app/gui/controller/BenchController.h"
 
+class QCustomPlot;
+
 namespace tacto::gui {
 
 class CalibrateWorkspace;
@@ -89,6 +91,7 @@ private:
     void noteOpened(const QString& path);
     /// The page's picture tools that can save now; null if there are none.
     [[nodiscard]] PictureTools* pictures() const;
+    [[nodiscard]] QCustomPlot* plot() const;
     [[nodiscard]] ProtocolWorkspace* shownRunner() const;
 
     BenchController& controller_;

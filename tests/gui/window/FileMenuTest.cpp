@@ -169,5 +169,35 @@ TEST_F(FileMenu, DoesWhatThePageHasAndSaysWhyNotTheRest) {
     EXPECT_IN_TIME(comesTrue([&] { return window.controller().activity() == gui::Activity::Closed; }));
 }
 
+TEST_F(FileMenu, WhatARunRecordedIsRecentToo) {
+    RecordProperty("hazard", "H11");
+    const WrittenSessions sessions;
+    const auto run = std::make_shared<gui::FinishedRun>();
+    run->result.session = sessions.write({.name = "run"});
+    emit window.controller().finished(run);
+    const auto recorded = QString::fromStdString(run->result.session.string());
+    EXPECT_EQ(recent().front(), recorded);
+    const auto elsewhere = std::make_shared<gui::FinishedRun>();
+    elsewhere->result.session = write("study.tacto", "sealed").toStdString();
+    emit window.controller().finished(elsewhere);
+    EXPECT_EQ(recent().front(), recorded) << "a study's session is named nowhere else";
+}
+
+TEST_F(FileMenu, SavesThePlotOfAPageThatHasNoButtonsForIt) {
+    const WrittenSessions sessions;
+    window.openFile(QString::fromStdString(sessions.write({.name = "one"}).string()));
+    ASSERT_IN_TIME(comesTrue([this] {
+        emit menu().aboutToShow();
+        return entry("Save picture…")->isEnabled();
+    })) << "the session's trials in the plane";
+    emit menu().aboutToHide();
+    const auto path = folder.filePath("trials.svg");
+    const auto wrong = window.findChild<gui::Workspaces*>()->savePicture(path);
+    EXPECT_FALSE(wrong) << wrong->toStdString();
+    QFile file(path);
+    ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+    EXPECT_TRUE(file.readAll().contains("<svg"));
+}
+
 }  // namespace
 }  // namespace tacto::test

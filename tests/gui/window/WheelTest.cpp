@@ -9,6 +9,7 @@
 #include <QTabBar>
 #include <QWheelEvent>
 #include <QWindow>
+#include <qcustomplot.h>
 #include <random>
 
 #include "app/gui/pilot/PilotWorkspace.h"
@@ -94,6 +95,36 @@ TEST_F(Wheel, ChangesNoSettingOfAnyWorkspaceThatHasNotTheFocus) {
     for (auto* top : QApplication::topLevelWidgets())
         if (top->isVisible() && top != &window) turnOverAll(*top);
     RecordProperty("turned", turned);
+}
+
+TEST_F(Wheel, ScrollsThePageUnderAPlotThatDoesNotZoom) {
+    QScrollArea area;
+    auto* inside = new QWidget;
+    auto* column = new QVBoxLayout(inside);
+    auto* plot = new QCustomPlot;
+    column->addWidget(plot);
+    inside->setMinimumHeight(2000);
+    area.setWidget(inside);
+    area.setWidgetResizable(true);
+    area.resize(400, 300);
+    area.show();
+    ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&area));
+    const auto turnedOver = [&] {
+        const auto at = QPoint(100, 100);
+        QWheelEvent event(at, area.mapToGlobal(at), {}, {0, -120}, Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase,
+                          false);
+        QSpontaneKeyEvent::setSpontaneous(&event);
+        const int before = area.verticalScrollBar()->value();
+        qApp->notify(area.windowHandle(), &event);
+        return area.verticalScrollBar()->value() - before;
+    };
+    EXPECT_GT(turnedOver(), 0);
+    plot->setInteraction(QCP::iRangeZoom);
+    const auto before = plot->xAxis->range();
+    EXPECT_EQ(turnedOver(), 0);
+    EXPECT_NE(plot->xAxis->range().size(), before.size()) << "it zooms";
+    plot->setInteraction(QCP::iRangeZoom, false);
+    EXPECT_GT(turnedOver(), 0);
 }
 
 TEST_F(Wheel, ChangesWhatHasTheFocusAndElseScrollsWhatItStandsIn) {
