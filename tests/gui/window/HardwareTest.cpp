@@ -1,5 +1,7 @@
 // Tests hardware in the window as a person meets it: ticked, opened, not permitted, unplugged, plugged in again.
+#include <QComboBox>
 #include <QHeaderView>
+#include <QLineEdit>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -160,6 +162,57 @@ TEST_F(HardwareWindow, APulledSensorBoardEndsTheOutputToo) {
     ASSERT_IN_TIME(comesTrue([this] { return state() == InterlockState::Disarmed; })) << banner().toStdString();
     EXPECT_IN_TIME(comesTrue([this] { return window.controller().telemetry().sensorAge_s < 0.1; }));
     EXPECT_IN_TIME(comesTrue([this] { return banner().isEmpty(); })) << banner().toStdString();
+}
+
+TEST_F(HardwareWindow, ARunThatAFaultEndedIsRunAgainByAResetThatAsks) {
+    RecordProperty("hazard", "H12");
+    visit(6);
+    gui::ProtocolWorkspace* runner = nullptr;
+    for (auto* each : window.findChildren<gui::ProtocolWorkspace*>())
+        if (each->isVisible()) runner = each;
+    ASSERT_NE(runner, nullptr);
+    auto* chooser = runner->findChild<QComboBox*>("chooser");
+    chooser->setCurrentIndex(chooser->findData("live"));
+    ASSERT_IN_TIME(comesTrue([&] { return !runner->reads() && runner->findChild<QLineEdit*>("duration") != nullptr; }));
+    runner->findChild<QLineEdit*>("devices")->setText(kStimulator + QString(" sim:finger"));
+    runner->findChild<QLineEdit*>("duration")->setText("60");
+    const auto presses = [&](const QString& text) {
+        QPushButton* button = nullptr;
+        ASSERT_IN_TIME(comesTrue([&] {
+            button = find<QPushButton>(*runner, text);
+            return button != nullptr && button->isEnabled();
+        })) << text.toStdString();
+        letLive(600);  // longer than a second step's wait
+        click(*button);
+    };
+    const auto ended = [&] {
+        return comesTrue([&] { return find<QPushButton>(*runner, "Reset fault and run again…") != nullptr; });
+    };
+    presses("Run");
+    presses("Arm and run");
+    const auto delivers = [this] {
+        return comesTrue([this] { return window.controller().telemetry().trainsDelivered > 0; });
+    };
+    presses("Arm output");
+    ASSERT_IN_TIME(delivers()) << runner->findChild<QLabel*>("runTrouble")->text().toStdString()
+                               << runner->findChild<QLabel*>("verdictWhy")->text().toStdString()
+                               << banner().toStdString();
+    unplugStimulator();
+    ASSERT_IN_TIME(ended());
+    plugStimulator();
+    presses("Run again");
+    presses("Arm and run");
+    ASSERT_IN_TIME(comesTrue([&] { return runner->findChild<QLabel*>("runTrouble")->text().contains("in a fault"); }))
+        << "a run alone resets nothing";
+    ASSERT_IN_TIME(ended());
+    presses("Reset fault and run again…");
+    EXPECT_THAT(runner->findChild<QLabel*>("armQuestion")->text(), Says("fault is reset first"));
+    EXPECT_EQ(window.controller().activity(), gui::Activity::Closed) << "nothing is opened before the answer";
+    presses("Arm and run");
+    presses("Arm output");
+    EXPECT_IN_TIME(delivers()) << runner->findChild<QLabel*>("verdictWhy")->text().toStdString();
+    window.controller().stop("a test");
+    EXPECT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Closed; }));
 }
 
 TEST_F(HardwareWindow, LooksRightInEachThemeAndSmall) {
