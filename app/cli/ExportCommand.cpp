@@ -7,7 +7,9 @@
 #include "app/run/SignalStop.h"
 #include "core/base/ProgramVersion.h"
 #include "core/exchange/Export.h"
+#include "core/session/SessionReader.h"
 #include "core/sharing/results/StudyResults.h"
+#include "core/study/StudyFiles.h"
 
 namespace tacto::cli {
 
@@ -34,18 +36,64 @@ void declareExport(QCommandLineParser& parser) {
     declarePassphrase(parser);
 }
 
+/// The study that a session file belongs to; empty if it belongs to none.
+std::filesystem::path studyOf(const std::filesystem::path& session) {
+    const auto folder = std::filesystem::absolute(session).parent_path().parent_path();
+    return Study::isThere(folder) ? folder : std::filesystem::path();
+}
+
+struct OpenedSeal {
+    std::shared_ptr<const RowSeal> seal;
+    std::string code;
+};
+/// Opens the seal of a study's session, and notes in the ledger that it leaves the study. Errors: as openStudy() and
+/// Study::part(); InvalidArgument for a place inside the study; Unsupported for data that may not leave it.
+Result<OpenedSeal> sealFor(const QCommandLineParser& parser, const std::filesystem::path& session,
+                           const std::filesystem::path& out) {
+    const auto folder = studyOf(session);
+    if (folder.empty()) return OpenedSeal{};
+    const auto place = std::filesystem::absolute(out);
+    if (liesInside(place, folder))
+        return invalid("{} lies inside the study folder; an export there would stand unsealed beside what is sealed",
+                       out.string());
+    auto study = openStudy(parser, folder, Study::Access::Change);
+    if (!study) return failure(study);
+    const auto file = session.stem().string();
+    auto seal = study->sealOf(file);
+    if (!seal) return failure(seal);
+    std::string code;
+    if (const auto whole = study->part(file); !whole) return failure(whole);
+    for (const auto& each : study->sessions()) {
+        if (std::ranges::find(each.parts, file, &StudyPart::file) == each.parts.end()) continue;
+        if (each.state == StudySessionState::Unfinished)
+            return fail(ErrorCode::Unsupported, "session {} may still go on; one that has ended is expected", file);
+        code = each.code;
+        for (const auto& participant : study->participants()) {
+            if (participant.id == each.participant && !mayBeShared(participant, true))
+                return fail(ErrorCode::Unsupported, "the participant of session {} did not consent, or withdrew", file);
+        }
+    }
+    if (const auto noted = study->exported(place, "session"); !noted) return failure(noted);
+    return OpenedSeal{std::move(*seal), std::move(code)};
+}
+
 int exportOne(const QCommandLineParser& parser, const std::string& session) {
     const auto name = parser.value("format").toStdString();
     const auto* format = exportFormat(name);
     if (format == nullptr)
         return usage(fmt::format("export: --format is \"{}\"; {} are accepted", name, formatNames()));
     if (parser.isSet("with")) return usage("export: --with is for a study; " + session + " is none");
+    const std::filesystem::path out = parser.value("out").toStdString();
+    if (const auto free = ExportTarget::begin(out, format->kind()); !free) return couldNotRun(free.error());
+    auto seal = sealFor(parser, session, out);
+    if (!seal) return couldNotRun(seal.error());
     SignalStop interrupts;
     const auto done = [&] {
         ProgressBar bar("exporting");
         return exportSession(
-            session, *format, parser.value("out").toStdString(), TACTOSCOPE_VERSION,
-            {.stopped = [&] { return interrupts.signalled(); }, .progress = [&](double share) { bar.show(share); }});
+            session, *format, out, programVersion().version,
+            {.stopped = [&] { return interrupts.signalled(); }, .progress = [&](double share) { bar.show(share); }},
+            seal->seal, seal->code);
     }();
     if (!done) return done.error().code == ErrorCode::Stopped ? failWith(done.error()) : couldNotRun(done.error());
     if (parser.isSet("json"))
@@ -54,8 +102,10 @@ int exportOne(const QCommandLineParser& parser, const std::string& session) {
         say("{}\n", done->out.string());
     for (const auto& each : done->leftOut) say(stderr, "tactoscope-cli: left out: {}: {}\n", each.what, each.why);
     if (!done->damaged) return kDone;
-    say(stderr, "tactoscope-cli: DAMAGED: {} is not what was recorded, and its export says so: {}\n", session,
-        fmt::join(done->problems, "; "));
+    const auto& first = done->problems.front();
+    say(stderr,
+        "tactoscope-cli: DAMAGED: {} is not what was recorded, and its export says so: {}; `verify` says more\n",
+        session, first.substr(0, first.find('\n')));
     return kVerdictFailed;
 }
 
@@ -88,7 +138,7 @@ int runExport(const QCommandLineParser& parser) {
 }  // namespace
 
 const Command kExport{"export",
-                      "{SESSION --format FORMAT --out PATH [--json] | "
+                      "{SESSION --format FORMAT --out PATH [--passphrase-file F] [--json] | "
                       "STUDY --format bids --out DIR [--with LIST] [--passphrase-file F]}",
                       "A session as files for other programs; a study's results without codes and dates, as BIDS",
                       declareExport, runExport};

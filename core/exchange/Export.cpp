@@ -143,11 +143,11 @@ std::vector<LeftOut> leftOutOf(const ExportSource& source, const ExportFormat& f
 
 Result<ExportReport> exportSession(const fs::path& session, const ExportFormat& format, const fs::path& out,
                                    std::string_view version, const ExportWatch& watch,
-                                   std::shared_ptr<const RowSeal> seal) {
+                                   std::shared_ptr<const RowSeal> seal, std::string_view code) {
     // Made first: who gave a name that is taken, or a folder that cannot be written to, need not wait.
     auto target = ExportTarget::begin(out, format.kind());
     if (!target) return failure(target);
-    const auto source = ExportSource::open(session, std::move(seal), watch, version);
+    const auto source = ExportSource::open(session, std::move(seal), watch, version, code);
     if (!source) return failure(source);
     ExportReport report;
     report.format = format.name;

@@ -98,11 +98,12 @@ struct ExportFormat {
 /// What this session has and the format cannot hold.
 [[nodiscard]] std::vector<LeftOut> leftOutOf(const ExportSource& source, const ExportFormat& format);
 
-/// Writes the session to `out`, which must be new. Errors: as ExportSource::open(), ExportTarget and the format's
-/// write(); then nothing is left.
+/// Writes the session to `out`, which must be new. `seal`, `code`: as ExportSource::open() takes them. Errors: as
+/// ExportSource::open(), ExportTarget and the format's write(); then nothing is left.
 [[nodiscard]] Result<ExportReport> exportSession(const std::filesystem::path& session, const ExportFormat& format,
                                                  const std::filesystem::path& out, std::string_view version,
                                                  const ExportWatch& watch = {},
-                                                 std::shared_ptr<const RowSeal> seal = nullptr);
+                                                 std::shared_ptr<const RowSeal> seal = nullptr,
+                                                 std::string_view code = {});
 
 }  // namespace tacto

@@ -65,6 +65,19 @@ std::string plainName(std::string name) {
     return name.empty() ? "stream" : name;
 }
 
+/// Replaces a participant's code wherever a text says it.
+void hide(const std::string& code, json& value) {
+    if (code.empty()) return;
+    if (value.is_structured()) {
+        for (auto& each : value) hide(code, each);
+    } else if (value.is_string()) {
+        auto& text = value.get_ref<std::string&>();
+        static constexpr std::string_view kInstead = "the participant";
+        for (auto at = text.find(code); at != text.npos; at = text.find(code, at + kInstead.size()))
+            text.replace(at, code.size(), kInstead);
+    }
+}
+
 /// The bounds of the values of a channel, and how many are absent.
 void lookAt(ExportChannel& channel, const SampleBlock& block, std::size_t at, std::size_t columns) {
     for (std::size_t i = at; i < block.values.size(); i += columns) {
@@ -132,7 +145,7 @@ struct ExportSource::State {
 
     SessionReader reader;
     ExportWatch watch;
-    std::string name, version, wallStart;
+    std::string name, version, wallStart, code;
     VerifyReport verified;
     bool damaged = false;
     std::vector<std::string> marks;
@@ -253,6 +266,8 @@ Result<void> ExportSource::State::readRows() {
     auto eventRows = reader.events();
     if (!eventRows) return failure(eventRows);
     events = std::move(*eventRows);
+    for (auto& trial : trials) hide(code, trial.measured);
+    for (auto& event : events) hide(code, event.body);
     const auto found = reader.captures();
     if (!found) return failure(found);
     // A file is called after the script's own number of the capture, which its trial lists.
@@ -276,6 +291,7 @@ Result<void> ExportSource::State::readRows() {
                             .trial = info.trial,
                             .at_s = toSeconds(info.at),
                             .simulated = info.simulated,
+                            .samples = info.samples,
                             .channels = info.channels});
     }
     return {};
@@ -332,6 +348,8 @@ Result<void> ExportSource::State::describe() {
     }
     for (const auto& stream : streams) described.push_back(streamJson(stream));
     const auto profile = parseJson(about.profileJson, "the profile of the session", kRowLimits);
+    auto parameters = about.parameters;
+    if (reader.sealed() && parameters.is_object()) parameters.erase("participant");  // the code
     description = {{"session", name},
                    {"chain_head", reader.chainHead()},
                    {"wall_start", wallStart},
@@ -345,7 +363,7 @@ Result<void> ExportSource::State::describe() {
                    {"program", {{"recorded_by", about.programVersion}, {"exported_by", version}}},
                    {"protocol", about.protocol},
                    {"protocol_sha256", about.protocolSha256},
-                   {"parameters", about.parameters},
+                   {"parameters", parameters},
                    {"seed", about.seed},
                    {"mode", about.mode},
                    {"devices", devices},
@@ -357,6 +375,7 @@ Result<void> ExportSource::State::describe() {
                    {"note", labels->note},
                    {"tags", labels->tags},
                    {"streams", described}};
+    hide(code, description);
     return {};
 }
 
@@ -366,7 +385,7 @@ ExportSource& ExportSource::operator=(ExportSource&&) noexcept = default;
 ExportSource::~ExportSource() = default;
 
 Result<ExportSource> ExportSource::open(const std::filesystem::path& session, std::shared_ptr<const RowSeal> seal,
-                                        ExportWatch watch, std::string_view version) {
+                                        ExportWatch watch, std::string_view version, std::string_view code) {
     auto verified = verifySession(session, watch.stopped);
     if (!verified) return failure(verified);
     if (verified->status == SessionStatus::NotASession)
@@ -382,6 +401,7 @@ Result<ExportSource> ExportSource::open(const std::filesystem::path& session, st
     state->watch = std::move(watch);
     state->name = session.stem().string();
     state->version = version;
+    state->code = code;
     state->wallStart = wallAtZero(state->reader.about());
     state->damaged = damaged;
     state->verified = std::move(*verified);
@@ -526,6 +546,7 @@ Result<void> ExportSource::forEachMoment(const std::function<Result<void>(const 
                         each.subject,
                         {{"verdict", each.verdict}, {"reasons", each.reasons}, {"results", each.results}}}});
     }
+    for (auto& moment : few) hide(state_->code, moment.row.details);
     std::ranges::sort(few, {}, &Moment::seq);
     auto next = few.begin();
     Result<void> went;
@@ -535,7 +556,9 @@ Result<void> ExportSource::forEachMoment(const std::function<Result<void>(const 
     };
     auto read = reader.forEachCommand([&](const SessionRow& row) {
         flush(row.seq);
-        if (went) went = visit({toSeconds(row.at), "command", row.name, row.body});
+        ExportRow command{toSeconds(row.at), "command", row.name, row.body};
+        hide(state_->code, command.details);
+        if (went) went = visit(command);
     });
     if (!read) return read;
     flush(std::numeric_limits<std::int64_t>::max());

@@ -69,6 +69,7 @@ struct ExportCapture {
     std::optional<int> trial;
     double at_s = 0;  ///< when it was recorded
     bool simulated = false;
+    std::uint64_t samples = 0;
     std::vector<std::string> channels;
 };
 
@@ -121,11 +122,12 @@ struct ExportRow {
 
 class ExportSource {
 public:
-    /// Verifies the session and looks through its streams. `version`: of this program. Errors: as SessionReader::open()
-    /// and verifySession(); Unsupported for a sealed session without its seal; Stopped.
+    /// Verifies the session and looks through its streams. `version`: of this program. `code`: of the participant,
+    /// which no text of the export says; empty for none. Errors: as SessionReader::open() and verifySession();
+    /// Unsupported for a sealed session without its seal; Stopped.
     [[nodiscard]] static Result<ExportSource> open(const std::filesystem::path& session,
                                                    std::shared_ptr<const RowSeal> seal, ExportWatch watch,
-                                                   std::string_view version);
+                                                   std::string_view version, std::string_view code = {});
     ExportSource(ExportSource&&) noexcept;
     ExportSource& operator=(ExportSource&&) noexcept;
     ~ExportSource();

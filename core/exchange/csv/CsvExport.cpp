@@ -182,6 +182,15 @@ Result<void> writeCsv(const ExportSource& source, const fs::path& folder, Export
     return writeJson(source.description(), folder / "session.json");
 }
 
+std::uint64_t csvSize(const ExportSource& source) {
+    constexpr std::uint64_t kOfNumber = 14, kOfRow = 14, kOfSample = 12;  // bytes, about
+    std::uint64_t bytes = 0;
+    for (const auto& stream : source.streams()) bytes += stream.samples * (kOfRow + kOfNumber * stream.channels.size());
+    for (const auto& capture : source.captures())
+        bytes += capture.samples * (kOfRow + kOfSample * capture.channels.size());
+    return bytes;
+}
+
 }  // namespace
 
 std::string csvColumn(std::string_view name, std::string_view unit) {
@@ -197,8 +206,12 @@ std::string csvColumn(std::string_view name, std::string_view unit) {
 }
 
 const ExportFormat& csvExport() {
-    static const ExportFormat format{
-        .name = "csv", .title = "CSV: a folder of tables", .suffix = "", .cannot = {}, .write = writeCsv};
+    static const ExportFormat format{.name = "csv",
+                                     .title = "CSV: a folder of tables",
+                                     .suffix = "",
+                                     .cannot = {},
+                                     .write = writeCsv,
+                                     .size = csvSize};
     return format;
 }
 

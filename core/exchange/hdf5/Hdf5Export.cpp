@@ -170,6 +170,16 @@ Result<void> writeHdf5(const ExportSource& source, const std::filesystem::path& 
     return fail(ErrorCode::Io, "{} could not be written: {}", path.string(), written.error().message);
 }
 
+std::uint64_t hdf5Size(const ExportSource& source) {
+    constexpr std::uint64_t kOfNumber = 5, kOfSample = 3, kOfSet = 2500;  // bytes, about
+    std::uint64_t bytes = 0;
+    for (const auto& stream : source.streams())
+        bytes += (1 + stream.channels.size()) * (kOfSet + kOfNumber * stream.samples);
+    for (const auto& capture : source.captures())
+        bytes += (1 + capture.channels.size()) * (kOfSet + kOfSample * capture.samples);
+    return bytes;
+}
+
 }  // namespace
 
 const ExportFormat& hdf5Export() {
@@ -177,7 +187,8 @@ const ExportFormat& hdf5Export() {
                                      .title = "HDF5: one file for h5py, MATLAB and xarray",
                                      .suffix = ".h5",
                                      .cannot = {},
-                                     .write = writeHdf5};
+                                     .write = writeHdf5,
+                                     .size = hdf5Size};
     return format;
 }
 
