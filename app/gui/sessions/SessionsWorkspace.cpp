@@ -8,7 +8,7 @@
 
 #include "app/gui/runner/ReportView.h"
 #include "app/gui/sessions/CompareWindow.h"
-#include "app/gui/sessions/SessionExport.h"
+#include "app/gui/sessions/ExportDialog.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Icons.h"
@@ -107,9 +107,8 @@ QWidget* SessionsWorkspace::buildListActions() {
     actions_.add(*row, "verify", tr("Verif&y"),
                  tr("Is it what was recorded? Checks every row and sample against the chain."), [this] { verify(); });
     actions_
-        .add(*row, "export", tr("E&xport CSV…"),
-             tr("One file for each stream; also trials, events with marks, commands and captures."),
-             [this] { askExport(); })
+        .add(*row, "export", tr("E&xport…"),
+             tr("Its streams, trials, trains, events and captures, for other programs."), [this] { askExport(); })
         ->setObjectName("exportSession");
     row->addStretch();
     auto* hint = new ElidedLabel(tr("Ctrl+click: a second · Ctrl+F: search"), holder);
@@ -297,15 +296,7 @@ void SessionsWorkspace::showReport(const QString& pdf) {
 }
 
 void SessionsWorkspace::askExport() {
-    const auto* entry = list_->current();
-    if (entry == nullptr) return;
-    FileQuestion question{.title = tr("Export %1 into a new folder").arg(qtext(entry->path.filename().string())),
-                          .wants = FileQuestion::Wants::NewFile,
-                          .folder = qtext(entry->path.parent_path().string()),
-                          .name = qtext(entry->path.stem().string()) + "-csv"};
-    // Keeps this session, even if another is selected by the time the folder is chosen.
-    const auto session = entry->path;
-    askForFile(*this, question, [this, session](const QString& folder) { exportSession(session, folder); });
+    if (const auto* entry = list_->current()) openDialog(new ExportDialog(entry->path, this));
 }
 
 void SessionsWorkspace::exportTo(const QString& folder) {
@@ -315,7 +306,10 @@ void SessionsWorkspace::exportTo(const QString& folder) {
 void SessionsWorkspace::exportSession(const std::filesystem::path& session, const QString& folder) {
     say(tr("Exporting…"));
     work_.start(
-        [session, folder](const WorkPort& port) { return exportCsv(session, folder.toStdString(), port); },
+        [session, folder](const WorkPort& port) -> Result<void> {
+            const auto done = exportWith(port, session, *exportFormat("csv"), folder.toStdString());
+            return done ? Result<void>() : failure(done);
+        },
         [this, folder](const Result<void>& done) {
             say(done ? tr("Exported to %1").arg(folder) : tr("Not exported: %1").arg(qtext(done.error().message)));
         });
@@ -328,13 +322,16 @@ void SessionsWorkspace::replay() {
     const auto target = folder->path() + "/" + qtext(entry->path.stem().string());
     replayed_ = std::move(folder);
     say(tr("Preparing the replay…"));
-    work_.start([path = entry->path,
-                 target](const WorkPort& port) { return exportRecording(path, target.toStdString(), port); },
-                [this, target](const Result<void>& done) {
-                    if (!done) return say(tr("Cannot be replayed: %1").arg(qtext(done.error().message)));
-                    say({});
-                    emit recordingReady(target);
-                });
+    work_.start(
+        [path = entry->path, target](const WorkPort& port) -> Result<void> {
+            const auto done = exportWith(port, path, *exportFormat("csv"), target.toStdString());
+            return done ? Result<void>() : failure(done);
+        },
+        [this, target](const Result<void>& done) {
+            if (!done) return say(tr("Cannot be replayed: %1").arg(qtext(done.error().message)));
+            say({});
+            emit recordingReady(target);
+        });
 }
 
 void SessionsWorkspace::compare() {

@@ -15,11 +15,12 @@
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/sessions/Background.h"
 #include "app/gui/sessions/CompareWindow.h"
+#include "app/gui/sessions/ExportDialog.h"
 #include "app/gui/sessions/SessionDetails.h"
-#include "app/gui/sessions/SessionExport.h"
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "core/acquisition/Recording.h"
 #include "core/session/SessionReader.h"
+#include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Support.h"
@@ -83,6 +84,7 @@ protected:
     gui::BenchController controller{simulatedRegistry};
     std::filesystem::path session;
     const ScratchDir folder;
+    const ExportFormat& csv = *exportFormat("csv");
 
 private:
     std::unique_ptr<gui::SessionsWorkspace> workspace_;
@@ -108,23 +110,23 @@ TEST_F(Recorded, AnExportTouchesNothingThatItDidNotMake) {
         return std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator());
     };
     const auto before = entries();
-    EXPECT_EQ(gui::exportCsv(session, target, port(true)).error().code, ErrorCode::Stopped);
+    EXPECT_EQ(gui::exportWith(port(true), session, csv, target).error().code, ErrorCode::Stopped);
     EXPECT_TRUE(std::filesystem::exists(kept));
     EXPECT_EQ(entries(), before) << "a cancelled export leaves nothing";
-    ASSERT_TRUE(gui::exportCsv(session, target, port()));
+    ASSERT_TRUE(gui::exportWith(port(), session, csv, target));
     EXPECT_TRUE(std::filesystem::exists(kept));
     EXPECT_EQ(entries(), before + 1);
-    EXPECT_THAT(gui::exportCsv(session, target, port()).error().message, HasSubstr("exists already"));
+    EXPECT_THAT(gui::exportWith(port(), session, csv, target).error().message, HasSubstr("exists already"));
     std::filesystem::create_directory(folder.path() / "empty");
-    EXPECT_FALSE(gui::exportCsv(session, folder.path() / "empty", port())) << "an empty folder may be in use too";
+    EXPECT_FALSE(gui::exportWith(port(), session, csv, folder.path() / "empty")) << "an empty folder may be in use too";
     std::filesystem::create_symlink(folder.path() / "nowhere", folder.path() / "link");
-    EXPECT_FALSE(gui::exportCsv(session, folder.path() / "link", port()));
+    EXPECT_FALSE(gui::exportWith(port(), session, csv, folder.path() / "link"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "nowhere"));
 }
 
 TEST_F(Recorded, ExportsEverySampleAsItWasRecorded) {
     const auto target = folder.path() / "csv";
-    ASSERT_TRUE(gui::exportCsv(session, target, port()));
+    ASSERT_TRUE(gui::exportWith(port(), session, csv, target));
     const auto reader = SessionReader::open(session);
     ASSERT_TRUE(reader);
     const auto streams = reader->streams();
@@ -132,21 +134,16 @@ TEST_F(Recorded, ExportsEverySampleAsItWasRecorded) {
     const auto& info = streams->front();
     const auto samples = reader->samples(info.id);
     ASSERT_TRUE(samples);
-    std::vector<std::filesystem::path> found;
-    for (const auto& entry : std::filesystem::directory_iterator(target)) {
-        if (entry.path().filename().string().starts_with("stream-1-")) found.push_back(entry.path());
-    }
-    ASSERT_EQ(found.size(), 1U);
-    std::ifstream csv(found.front());
+    std::ifstream table(target / "acceleration.csv");
     std::string line;
-    ASSERT_TRUE(std::getline(csv, line));
+    ASSERT_TRUE(std::getline(table, line));
     EXPECT_TRUE(line.starts_with("time_s,"));
     std::size_t rows = 0;
     const auto columns = info.stream.columns.size();
-    while (std::getline(csv, line)) {
+    while (std::getline(table, line)) {
         ASSERT_LT(rows, samples->samples());
         const auto cells = QString::fromStdString(line).split(',');
-        ASSERT_EQ(std::size_t(cells.size()), columns + 1);
+        ASSERT_EQ(std::size_t(cells.size()), columns + 2);
         EXPECT_EQ(cells[0].toDouble(), samples->t_s[rows]);
         for (std::size_t c = 0; c < columns; ++c)
             EXPECT_EQ(cells[int(c) + 1].toDouble(), samples->values[rows * columns + c]);
@@ -155,9 +152,50 @@ TEST_F(Recorded, ExportsEverySampleAsItWasRecorded) {
     EXPECT_EQ(rows, samples->samples());
 }
 
+TEST_F(Recorded, IsExportedByOneDialogThatSaysWhatBecomesOfIt) {
+    RecordProperty("hazard", "H9");
+    auto& workspace = opened();
+    auto* ask = workspace.findChild<QPushButton*>("exportSession");
+    ASSERT_NE(ask, nullptr);
+    ASSERT_IN_TIME(comesTrue([&] { return ask->isEnabled(); }));
+    click(*ask);
+    auto* dialog = workspace.findChild<gui::ExportDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    const auto* holds = dialog->findChild<QLabel*>("exportHolds");
+    auto* begin = dialog->findChild<QPushButton*>("exportBegin");
+    ASSERT_IN_TIME(comesTrue([&] { return begin->isEnabled(); }));
+    auto* place = dialog->findChild<QLineEdit*>("exportPlace");
+    for (const auto* format : exportFormats()) {
+        const auto name = std::string(format->name);
+        dialog->findChild<gui::FieldForm*>()->set("format", QString::fromStdString(name));
+        EXPECT_TRUE(place->text().endsWith(
+            QString::fromStdString(format->suffix.empty() ? "-" + name : std::string(format->suffix))));
+        EXPECT_THAT(holds->text().toStdString(), HasSubstr("Marked: simulated")) << name;
+        const auto source = ExportSource::open(session, nullptr, {}, "test");
+        ASSERT_TRUE(source);
+        for (const auto& left : leftOutOf(*source, *format))
+            EXPECT_THAT(holds->text().toStdString(), HasSubstr(left.why)) << name;
+    }
+    auto* folderButton = dialog->findChild<QPushButton*>("exportFolder");
+    EXPECT_FALSE(folderButton->isVisible());
+    dialog->findChild<gui::FieldForm*>()->set("format", "hdf5");
+    place->setText(QString::fromStdString((folder.path() / "out.h5").string()));
+    EXPECT_EQ(faultsOf(*dialog), "");
+    shot(*dialog, "export-dialog");
+    click(*begin);
+    const auto* says = dialog->findChild<QLabel*>("exportSays");
+    ASSERT_IN_TIME(comesTrue([&] { return says->text().startsWith("Exported:"); })) << says->text().toStdString();
+    EXPECT_TRUE(folderButton->isVisible());
+    EXPECT_EQ(faultsOf(*dialog), "");
+    shot(*dialog, "export-done");
+    EXPECT_GT(std::filesystem::file_size(folder.path() / "out.h5"), 1000U);
+    click(*begin);
+    ASSERT_IN_TIME(comesTrue([&] { return says->text().contains("exists already"); })) << says->text().toStdString();
+}
+
 TEST_F(Recorded, ReplaysAsARecording) {
     const auto target = folder.path() / "again";
-    const auto written = gui::exportRecording(session, target, port());
+    const auto written = gui::exportWith(port(), session, csv, target);
     ASSERT_TRUE(written) << written.error().message;
     const auto recording = Recording::open(target);
     ASSERT_TRUE(recording) << recording.error().message;

@@ -7,7 +7,7 @@
 
 #include "app/gui/live/LiveWorkspace.h"
 #include "app/gui/live/StripPlots.h"
-#include "app/gui/sessions/SessionExport.h"
+#include "app/gui/sessions/ExportDialog.h"
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/window/DayDialog.h"
 #include "app/gui/window/MarkLine.h"
@@ -73,10 +73,10 @@ TEST_F(Marks, AreOfTheMomentOfTheKeyAndStandEverywhere) {
 
     const ScratchDir folder;
     const gui::WorkPort port{std::make_shared<std::atomic<bool>>(false), [](int, int) {}};
-    ASSERT_TRUE(gui::exportCsv(session, folder.path() / "csv", port));
+    ASSERT_TRUE(gui::exportWith(port, session, *exportFormat("csv"), folder.path() / "csv"));
     std::ifstream csv(folder.path() / "csv" / "events.csv");
     const std::string exported{std::istreambuf_iterator<char>(csv), {}};
-    EXPECT_THAT(exported, HasSubstr("\"operator mark\",\"{\"\"text\"\":\"\"table bumped\"\"}\""));
+    EXPECT_THAT(exported, HasSubstr("operator mark,\"{\"\"text\"\":\"\"table bumped\"\"}\""));
 
     const auto report = readSessionReport(session);
     ASSERT_TRUE(report);
