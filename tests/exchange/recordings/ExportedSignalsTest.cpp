@@ -13,7 +13,7 @@
 #include "core/exchange/edf/EdfGrid.h"
 #include "core/exchange/recordings/OpenRecording.h"
 #include "core/session/SessionWriter.h"
-#include "tests/exchange/recordings/OthersPython.h"
+#include "tests/exchange/recordings/Readers.h"
 #include "tests/session/SessionSupport.h"
 #include "tests/support/Support.h"
 #include "tests/support/Trials.h"
@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(All, ExportedSignals, testing::Values("xdf", "edf", "bd
 TEST_P(ExportedSignals, HoldForOthersReadersWhatTheSessionHolds) {
     RecordProperty("hazard", "H9");
     const auto python = test::pythonWithReaders();
-    if (!python) GTEST_SKIP() << test::kNoReaders;
+    if (!python) GTEST_SKIP() << test::kNoPackages;
     const auto script = test::sourceDir() / "tests/exchange/recordings/read_signals.py";
     for (std::uint64_t seed = 1; seed <= test::trials<std::uint64_t>({.local = 4, .ci = 12, .campaign = 300}); ++seed) {
         const test::ScratchDir folder;
@@ -138,9 +138,9 @@ TEST_P(ExportedSignals, HoldForOthersReadersWhatTheSessionHolds) {
         const auto done = exportSession(drawn.path(), *exportFormat(GetParam()), out, "0.0.0-test");
         ASSERT_TRUE(done) << done.error().message;
         std::ofstream(folder.path() / "report.json") << toJson(*done).dump();
-        const auto [said, code] =
-            test::outputOf(fmt::format("{} '{}' '{}' '{}' '{}' 2>&1", *python, script.string(), out.string(),
-                                       folder.path().string(), (folder.path() / "report.json").string()));
+        const auto [code, said] =
+            test::outputOfShell(fmt::format("'{}' '{}' '{}' '{}' '{}'", *python, script.string(), out.string(),
+                                            folder.path().string(), (folder.path() / "report.json").string()));
         ASSERT_EQ(code, 0) << "seed " << seed << '\n' << said;
     }
 }

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/exchange/recordings/OpenRecording.h"
-#include "tests/exchange/recordings/OthersPython.h"
+#include "tests/exchange/recordings/Readers.h"
 #include "tests/support/Support.h"
 #include "tests/support/Trials.h"
 
@@ -26,11 +26,11 @@ constexpr int kSeed = 20261130;
 template <class Compare>
 void compareWithOthers(const char* which, int files, Compare&& compare) {
     const auto python = test::pythonWithReaders();
-    if (!python) GTEST_SKIP() << test::kNoReaders;
+    if (!python) GTEST_SKIP() << test::kNoPackages;
     const test::ScratchDir folder;
     const auto script = test::sourceDir() / "tests/exchange/recordings/oracle.py";
-    const auto [said, code] = test::outputOf(fmt::format("{} '{}' {} '{}' {} {} 2>&1", *python, script.string(), which,
-                                                         folder.path().string(), kSeed, files));
+    const auto [code, said] = test::outputOfShell(
+        fmt::format("'{}' '{}' {} '{}' {} {}", *python, script.string(), which, folder.path().string(), kSeed, files));
     ASSERT_EQ(code, 0) << said;
     int compared = 0;
     for (const auto& entry : fs::directory_iterator(folder.path())) {
