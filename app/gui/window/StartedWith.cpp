@@ -12,8 +12,8 @@ constexpr auto kHelp = R"(usage: tactoscope [FILE]
 
 The window. tactoscope-cli is the same bench in a terminal.
 
-  FILE           opened at once: a session (*.tacto), a recording (its folder or its recording.json) or an
-                 oscilloscope's capture
+  FILE           opened at once: a session (*.tacto), a recording (its folder, its recording.json, or an
+                 EDF, BDF or XDF file) or an oscilloscope's capture
   -h, --help     prints this
   -v, --version  prints the version)";
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fmt/chrono.h>
 #include <set>
+#include <span>
 #include <unistd.h>
 
 #include "core/base/Clock.h"
@@ -68,6 +69,47 @@ std::string annotationBytes(const Annotation& note) {
     out += '\0';
     return out;
 }
+
+/// Finds the stretches of more than a second in which a channel, or all of a stream, has no value.
+class AbsenceFinder {
+public:
+    AbsenceFinder(std::string_view stream, const std::vector<PlannedSignal>& signals, double slot_s)
+        : stream_(stream), slot_s_(slot_s), since_s_(signals.size(), 0) {
+        for (const auto& signal : signals) labels_.push_back(signal.label);
+    }
+
+    void feed(double t_s, std::span<const double> values) {
+        bool late = false;
+        for (std::size_t c = 0; c < since_s_.size(); ++c)
+            late = late || (t_s - since_s_[c] > kNoted_s && std::isfinite(values[c]));
+        if (late) note(t_s, [&](std::size_t c) { return std::isfinite(values[c]); });
+        for (std::size_t c = 0; c < since_s_.size(); ++c)
+            if (std::isfinite(values[c])) since_s_[c] = t_s + slot_s_;
+    }
+    /// The recording ends at `end_s`; adds all that was found.
+    void end(double end_s, std::vector<Annotation>& to) {
+        note(end_s, [](std::size_t) { return true; });
+        std::ranges::move(found_, std::back_inserter(to));
+    }
+
+private:
+    static constexpr double kNoted_s = 1;
+
+    template <class IsThere>
+    void note(double t_s, const IsThere& isThere) {
+        bool all = true;
+        for (std::size_t c = 0; c < since_s_.size(); ++c) all = all && isThere(c) && since_s_[c] == since_s_[0];
+        for (std::size_t c = 0; c < (all ? 1 : since_s_.size()); ++c)
+            if (isThere(c) && t_s - since_s_[c] > kNoted_s)
+                found_.push_back({since_s_[c], t_s - since_s_[c], noteText("absent " + (all ? stream_ : labels_[c]))});
+    }
+
+    std::string stream_;
+    double slot_s_;
+    std::vector<std::string> labels_;
+    std::vector<double> since_s_;  // from when on each channel has no value
+    std::vector<Annotation> found_;
+};
 
 class EdfWriter {
 public:
@@ -170,77 +212,52 @@ private:
         if (records_ > kMaxRecords)
             return fail(ErrorCode::Unsupported, "{} holds at most {} records of {} s, and the session lasts {:.6g} s",
                         name(), kMaxRecords, record_s_, end_s_);
-        for (const auto& planned : streams_)
-            if (auto found = findAbsences(planned); !found) return found;
         return forEachMomentInWords(source_, [&](const ExportMoment&) -> Result<void> {
             ++notes_;
             return {};
         });
     }
 
-    /// Leaves out what is not sampled regularly; returns whether nothing was.
+    /// Looks for what is absent for more than a second, and leaves out what is not sampled regularly; returns whether
+    /// nothing was.
     Result<bool> lookAtSlots() {
         const auto before = streams_.size();
         end_s_ = source_.duration_s();
+        absences_.clear();
+        std::vector<AbsenceFinder> finders;
         for (auto planned = streams_.begin(); planned != streams_.end();) {
-            SlotFinder finder(planned->slotRate_hz(record_s_), rateOf(*planned->stream));
+            const auto& stream = *planned->stream;
+            const auto width = stream.channels.size();
+            const double slot_s = 1 / planned->slotRate_hz(record_s_);
+            SlotFinder slots(planned->slotRate_hz(record_s_), rateOf(stream));
+            AbsenceFinder absent(stream.name, planned->signals, slot_s);
             double last_s = 0;
-            auto read = source_.forEachChunk(*planned->stream, [&](const SampleBlock& block) -> Result<void> {
-                for (const double t_s : block.t_s)
-                    if (finder.next(t_s)) last_s = std::max(last_s, t_s);
+            auto read = source_.forEachChunk(stream, [&](const SampleBlock& block) -> Result<void> {
+                for (std::size_t i = 0; i < block.samples(); ++i) {
+                    const auto place = slots.next(block.t_s[i]);
+                    if (!place) continue;
+                    last_s = std::max(last_s, block.t_s[i]);
+                    absent.feed(static_cast<double>(place->slot) * slot_s,
+                                std::span(block.values).subspan(i * width, width));
+                }
                 return {};
             });
             if (!read) return failure(read);
-            planned->counts = finder.counts();
-            const auto samples = static_cast<double>(planned->stream->samples);
+            planned->counts = slots.counts();
+            const auto samples = static_cast<double>(stream.samples);
             if (static_cast<double>(planned->counts.dropped) > kMaxLost * samples) {
-                leaveOut(*planned->stream,
-                         fmt::format("it is not sampled regularly: {} of {} samples would share the place of another",
-                                     planned->counts.dropped, planned->stream->samples));
+                leaveOut(stream, fmt::format("it is not sampled regularly: {} of {} samples would share the place of "
+                                             "another",
+                                             planned->counts.dropped, stream.samples));
                 planned = streams_.erase(planned);
                 continue;
             }
-            end_s_ = std::max(end_s_, last_s + 1 / planned->slotRate_hz(record_s_));
+            end_s_ = std::max(end_s_, last_s + slot_s);
+            finders.push_back(std::move(absent));
             ++planned;
         }
+        for (auto& finder : finders) finder.end(end_s_, absences_);
         return streams_.size() == before;
-    }
-
-    /// Notes each stretch of more than a second in which a channel, or a whole stream, has no value.
-    Result<void> findAbsences(const PlannedStream& planned) {
-        const auto& stream = *planned.stream;
-        const auto width = stream.channels.size();
-        const double slot_s = 1 / planned.slotRate_hz(record_s_);
-        std::vector<double> since(width, 0);  // when each channel was absent from on
-        const auto endAt = [&](double t_s, const auto& isThere) {
-            constexpr double kNoted_s = 1;
-            const bool all = [&] {
-                for (std::size_t c = 0; c < width; ++c)
-                    if (!isThere(c) || since[c] != since[0]) return false;
-                return true;
-            }();
-            for (std::size_t c = 0; c < width; ++c) {
-                if (!isThere(c)) continue;
-                if (t_s - since[c] > kNoted_s && (!all || c == 0)) {
-                    const auto& what = all ? stream.name : planned.signals[c].label;
-                    absences_.push_back({since[c], t_s - since[c], noteText("absent " + what)});
-                }
-                since[c] = t_s + slot_s;
-            }
-        };
-        SlotFinder finder(planned.slotRate_hz(record_s_), rateOf(stream));
-        auto read = source_.forEachChunk(stream, [&](const SampleBlock& block) -> Result<void> {
-            for (std::size_t i = 0; i < block.samples(); ++i) {
-                const auto place = finder.next(block.t_s[i]);
-                if (!place) continue;
-                const double t_s = static_cast<double>(place->slot) * slot_s;
-                endAt(t_s, [&](std::size_t c) { return std::isfinite(block.values[i * width + c]); });
-            }
-            return {};
-        });
-        if (!read) return read;
-        endAt(end_s_, [](std::size_t) { return true; });
-        return {};
     }
 
     /// Gives everything its place in a record.

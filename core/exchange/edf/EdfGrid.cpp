@@ -57,19 +57,19 @@ double recordDuration_s(std::span<const double> rates_hz, double maxRecord) {
 }
 
 std::optional<SlotFinder::Place> SlotFinder::next(double t_s) {
-    const double nearest = std::round(t_s * slotRate_hz_);
-    if (!(nearest >= 0 && nearest < 9e15) || (last_ && nearest < static_cast<double>(*last_))) {
+    const double at = t_s * slotRate_hz_ + 0.5;
+    if (!(at >= 0 && at < 9e15) || (last_ && at < static_cast<double>(*last_))) {
         ++counts_.dropped;
         return std::nullopt;
     }
-    const auto slot = static_cast<std::uint64_t>(nearest);
+    const auto slot = static_cast<std::uint64_t>(at);
     const bool slipped = last_ && slot == *last_ + 2 && t_s - last_s_ < 1.5 / usualRate_hz_;
     if (last_ && slot == *last_)
         ++counts_.dropped;  // the sample before
     else
         counts_ = counts();
     if (slipped) ++counts_.repeated;
-    lastError_s_ = std::abs(t_s - nearest / slotRate_hz_);
+    lastError_s_ = std::abs(t_s - static_cast<double>(slot) / slotRate_hz_);
     last_ = slot;
     last_s_ = t_s;
     return Place{slot, slipped};
@@ -81,14 +81,16 @@ GridCounts SlotFinder::counts() const {
     return counts;
 }
 
-double Scale::step() const {
+double Scale::step() const noexcept {
     return (high - low) / (static_cast<double>(digitalMax) - static_cast<double>(digitalMin));
 }
 
-int Scale::digital(double value) const {
+int Scale::digital(double value) const noexcept {
     if (!std::isfinite(value)) return digitalMin;
-    const double nearest = std::round((value - low) / step()) + static_cast<double>(digitalMin);
-    return static_cast<int>(std::clamp(nearest, static_cast<double>(digitalMin) + 1, static_cast<double>(digitalMax)));
+    const double steps = (value - low) / step();
+    const double most = static_cast<double>(digitalMax) - static_cast<double>(digitalMin);
+    // std::round() is a call of a library.
+    return digitalMin + static_cast<int>(std::clamp(steps, 1.0, most) + 0.5);
 }
 
 std::optional<Scale> scaleFor(double least, double most, bool whole, int bits) {

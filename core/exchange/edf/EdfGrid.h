@@ -49,9 +49,9 @@ struct Scale {
     int digitalMin = 0, digitalMax = 0;    ///< the lowest means absent
     bool exact = false;                    ///< whole numbers with a step of 1
 
-    [[nodiscard]] double step() const;  ///< between two values
+    [[nodiscard]] double step() const noexcept;  ///< between two values
     /// Returns the nearest digital value; digitalMin for what is not finite.
-    [[nodiscard]] int digital(double value) const;
+    [[nodiscard]] int digital(double value) const noexcept;
 
     double low = 0, high = 0;  ///< the physical limits as numbers
 };
