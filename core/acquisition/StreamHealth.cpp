@@ -131,22 +131,12 @@ namespace {
 constexpr double kByChance = 1e-9;
 constexpr std::uint64_t kKnown = 100;  // changes after which the normal behaviour of a value is known
 constexpr std::uint64_t kEnough = 40;  // repeats that show a standstill: 1 in 10^12 if the value moves
-
-/// Sets a bit for each of the last values, newest first, that equals `value`. Few do, so it first checks for any.
-std::uint64_t sameAs(std::uint64_t value, const std::uint64_t* past) noexcept {
-    std::uint64_t any = 0, same = 0;
-    for (std::size_t i = 0; i < Standstill::kPeriods; ++i) any |= past[i] == value ? 1U : 0U;
-    for (std::size_t i = 0; any != 0 && i < Standstill::kPeriods; ++i) {
-        same |= std::uint64_t{past[i] == value ? 1U : 0U} << i;
-    }
-    return same;
-}
 }  // namespace
 
 Standstill::Standstill(std::size_t channels, bool eachChannel)
     : channels_(channels),
       eachChannel_(eachChannel),
-      before_(channels * 2 * kPeriods),
+      before_(channels),
       repeats_((eachChannel ? 1 + channels : 1) * kPeriods),
       same_(eachChannel ? 1 + channels : 1) {}
 
@@ -155,31 +145,29 @@ void Standstill::feed(const SampleBlock& block) noexcept {
         const double* values = block.values.data() + i * channels_;
         last_s_ = std::exchange(newest_s_, block.t_s[i]);
         compare(values);
-        keep(values);
         ++seen_;
     }
 }
 
+std::uint64_t Standstill::History::push(std::uint32_t number, double value) noexcept {
+    const auto bits = std::bit_cast<std::uint64_t>(value);
+    auto& bucket = newest[bits * 0x9E37'79B9'7F4A'7C15U >> (64 - std::bit_width(kBuckets - 1))];
+    std::uint64_t same = 0;
+    for (auto at = bucket; at != 0 && number - at <= kPeriods; at = earlier[at % kPeriods])
+        same |= std::uint64_t{values[at % kPeriods] == bits ? 1U : 0U} << (number - at - 1);
+    values[number % kPeriods] = bits;
+    earlier[number % kPeriods] = std::exchange(bucket, number);
+    return same;
+}
+
 void Standstill::compare(const double* values) noexcept {
-    const std::uint64_t known = seen_ < kPeriods ? (std::uint64_t{1} << seen_) - 1 : ~std::uint64_t{0};
-    std::uint64_t all = known;
+    std::uint64_t all = ~std::uint64_t{0};
     for (std::size_t c = 0; c < channels_; ++c) {
-        const std::uint64_t same =
-            sameAs(std::bit_cast<std::uint64_t>(values[c]), before_.data() + c * 2 * kPeriods + newest_) & known;
+        const auto same = before_[c].push(static_cast<std::uint32_t>(seen_ + 1), values[c]);
         if (eachChannel_) countAll(1 + c, same);
         all &= same;
     }
     countAll(0, all);
-}
-
-void Standstill::keep(const double* values) noexcept {
-    const bool full = newest_ == 0;
-    newest_ = (full ? kPeriods : newest_) - 1;
-    for (std::size_t c = 0; c < channels_; ++c) {
-        std::uint64_t* past = before_.data() + c * 2 * kPeriods;
-        if (full) std::copy_n(past, kPeriods, past + kPeriods);
-        past[newest_] = std::bit_cast<std::uint64_t>(values[c]);
-    }
 }
 
 /// Counts only if values repeat or stop repeating, which is rare for a working sensor.
@@ -196,7 +184,7 @@ void Standstill::count(Repeats& one, std::size_t period, bool same) const noexce
     if (same) {
         if (one.run++ == 0) one.since_s = last_s_;
     } else if (one.run > 0) {
-        one.repeated += moves(one, period) ? std::min(one.run, kEnough) : one.run;
+        one.repeated += one.run > kEnough && moves(one, period) ? kEnough : one.run;
         one.matched += std::exchange(one.run, 0);
     }
 }

@@ -7,6 +7,7 @@
 // Thread-safety: none; one owner. feed() and the queries never allocate.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -106,8 +107,17 @@ private:
         std::uint64_t run = 0;                    // length of the present repetition
         std::uint64_t matched = 0, repeated = 0;  // earlier: all values, and those that noise may have repeated
     };
+    /// The last kPeriods values of a channel. Values in one bucket are linked, newest first, so that finding those that
+    /// equal a new one takes a look at few.
+    struct History {
+        static constexpr std::size_t kBuckets = 128;
+        std::array<std::uint64_t, kPeriods> values{};   // bits of the sample n at [n % kPeriods], like `earlier`
+        std::array<std::uint32_t, kPeriods> earlier{};  // number of the sample before it in its bucket; 0: none
+        std::array<std::uint32_t, kBuckets> newest{};   // number of the newest sample in each bucket; 0: none
+        /// Keeps the value of sample `number`. Sets bit (period - 1) if the value `period` samples before is equal.
+        [[nodiscard]] std::uint64_t push(std::uint32_t number, double value) noexcept;
+    };
     void compare(const double* values) noexcept;
-    void keep(const double* values) noexcept;
     void countAll(std::size_t row, std::uint64_t same) noexcept;
     void count(Repeats& one, std::size_t period, bool same) const noexcept;
     [[nodiscard]] std::uint64_t changes(const Repeats& one, std::size_t period) const noexcept;
@@ -116,9 +126,7 @@ private:
 
     const std::size_t channels_;
     const bool eachChannel_;
-    // Per channel: the bits of the last kPeriods samples, newest first from newest_ on, with equal room before them.
-    std::vector<std::uint64_t> before_;
-    std::size_t newest_ = kPeriods;
+    std::vector<History> before_;       // one for each channel
     std::uint64_t seen_ = 0;            // samples before the present one
     std::vector<Repeats> repeats_;      // kPeriods entries for all channels together; with eachChannel_, also for each
     std::vector<std::uint64_t> same_;   // for each row: bit (period - 1) is set if the newest sample repeats

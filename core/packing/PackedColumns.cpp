@@ -105,7 +105,8 @@ std::uint64_t unfolded(std::uint64_t word) noexcept { return word >> 1U ^ (0 - (
 /// Replaces integers by differences. The order is the one with the shorter differences in the first few.
 Coding takeDifferences(std::span<std::uint64_t> words) noexcept {
     Coding coding;
-    if (words.empty()) return coding;
+    coding.start = words.front();
+    if (std::ranges::all_of(words, [&](std::uint64_t word) { return word == coding.start; })) return coding;
     const auto [low, high] =
         std::ranges::minmax(words, {}, [](std::uint64_t word) { return static_cast<std::int64_t>(word); });
     const auto middle = low + (high - low) / 2;
