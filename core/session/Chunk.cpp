@@ -75,6 +75,10 @@ Result<ChunkHead> parseChunkHead(std::string_view text) {
     return parseRecord(chunkFields(), text, "the description of a chunk");
 }
 
+Result<ChunkHead> chunkHeadFrom(const nlohmann::json& json) {
+    return chunkFields().read(json, {.file = "the description of a chunk"}).map_error(asParseError);
+}
+
 std::array<std::span<const std::byte>, 2> recordedBytes(const SampleBlock& block, bool withStamps) noexcept {
     const auto stamps = std::span(block.t_s).first(withStamps ? block.samples() : 0);
     return {std::as_bytes(stamps), std::as_bytes(std::span(block.values))};

@@ -46,6 +46,7 @@ struct ChunkHead {
 [[nodiscard]] std::string toJsonText(const ChunkHead& head);
 /// Errors: ParseError.
 [[nodiscard]] Result<ChunkHead> parseChunkHead(std::string_view json);
+[[nodiscard]] Result<ChunkHead> chunkHeadFrom(const nlohmann::json& json);
 
 /// Returns the stamps, if `withStamps`, and the values: what the head's checksum covers.
 [[nodiscard]] std::array<std::span<const std::byte>, 2> recordedBytes(const SampleBlock& block,

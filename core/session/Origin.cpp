@@ -40,22 +40,28 @@ std::string originOf(const SessionDevice& device) {
     return isReplayed ? origin::kReplayedUnknown : origin::kHardware;
 }
 
-Result<Delivered> deliveredIn(const SessionReader& session) {
+Result<Delivered> deliveredIn(const SessionReader& session, const std::function<void(const SessionRow&)>& also) {
     if (session.locked())
         return fail(ErrorCode::Unsupported,
                     "what the session delivered is sealed; it opens with the study's passphrase");
     Delivered delivered;
-    const auto read = session.forEachCommand([&](const SessionRow& row) {
-        if (row.name == "impedance check") ++delivered.checks;
-        if (row.name != "delivered") return;
+    constexpr std::string_view kCheck = "impedance check", kTrain = "delivered";
+    const auto count = [&](const SessionRow& row) {
+        if (row.name == kCheck) {
+            ++delivered.checks;
+            return;
+        }
         ++delivered.trains;
+        if (also) also(row);
         for (const auto& [key, unit] : {std::pair("amplitude_ma", "mA"), std::pair("amplitude_v", "V")}) {
             const auto amplitude = row.body.find(key);
             if (amplitude == row.body.end() || !amplitude->is_number()) continue;
             delivered.unit = unit;
             delivered.most = std::max(delivered.most, amplitude->get<double>());
         }
-    });
+    };
+    const auto read =
+        session.forEachCommand(count, [&](std::string_view name) { return name == kCheck || name == kTrain; });
     if (!read) return failure(read);
     return delivered;
 }
@@ -152,10 +158,14 @@ RecordedMarks recordedMarks(const std::vector<SessionRow>& events) {
 Result<std::vector<std::string>> sessionMarks(const SessionReader& session) {
     const auto delivered = deliveredIn(session);
     if (!delivered) return failure(delivered);
+    return sessionMarks(session, *delivered);
+}
+
+Result<std::vector<std::string>> sessionMarks(const SessionReader& session, const Delivered& delivered) {
     const auto events = session.events();
     if (!events) return failure(events);
     const auto& about = session.about();
-    auto marks = originMarks(about, *delivered);
+    auto marks = originMarks(about, delivered);
     const auto recorded = recordedMarks(*events);
     const auto measured = session.measurements();
     if (!measured) return failure(measured);

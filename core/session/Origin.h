@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,8 +37,10 @@ struct Delivered {
     double most = 0;   ///< largest amplitude, in `unit`
     std::string unit;  ///< "V" or "mA"; empty for a massager, or if the session does not say
 };
-/// Counts the commands of a session. Errors: as SessionReader::commands(); Unsupported for a locked session.
-[[nodiscard]] Result<Delivered> deliveredIn(const SessionReader& session);
+/// Counts the commands of a session, and calls `also` for each train delivered: one pass serves both. Errors: as
+/// SessionReader::commands(); Unsupported for a locked session.
+[[nodiscard]] Result<Delivered> deliveredIn(const SessionReader& session,
+                                            const std::function<void(const SessionRow&)>& also = {});
 
 /// Returns one sentence for each mark. A session with simulated devices only, or without devices but with predictions,
 /// is marked "SIMULATED: ..."; in a mixed session each device has its own mark; real devices alone need no mark.
@@ -68,5 +71,6 @@ struct RecordedMarks {
 /// Returns the marks as sentences, and the flags by their names in science.md ("uncalibrated R"). Errors: as
 /// SessionReader::events() and commands().
 [[nodiscard]] Result<std::vector<std::string>> sessionMarks(const SessionReader& session);
+[[nodiscard]] Result<std::vector<std::string>> sessionMarks(const SessionReader& session, const Delivered& delivered);
 
 }  // namespace tacto

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -41,6 +42,8 @@ struct SessionReader::State {
     Instant lastAt{0};
     bool closed = false;
     bool damaged = false;  // opened to read what can be read
+    mutable std::map<std::string, std::vector<std::int64_t>, std::less<>> fewRows;  // by kind, from findFewRows()
+    mutable std::int64_t foundTo = 0;                                               // the last row it has seen
 
     [[nodiscard]] bool locked() const noexcept { return source.sealed() && seal == nullptr; }
     [[nodiscard]] Result<void> unlocked(std::string_view what) const {
@@ -59,12 +62,14 @@ struct SessionReader::State {
         return SessionRow{seq, inside->at, std::move(inside->name), std::move(inside->body), inside->sealed};
     }
 
-    /// Calls `visit(const SessionRow&)` for every row of a kind.
+    using Wanted = std::function<bool(std::string_view name)>;
+
+    /// Calls `visit(SessionRow)` for every row of a kind that can be read in a damaged session.
     template <class Visit>
-    [[nodiscard]] Result<void> forEach(const char* kind, Visit visit) const {
+    [[nodiscard]] Result<void> forEachReadable(std::string_view kind, Visit& visit, const Wanted& wanted) const {
         for (std::int64_t after = 0;;) {
-            auto read = forEachAfter(after, kind, visit);
-            if (read || !damaged || read.error().code != ErrorCode::ParseError) return read;
+            auto read = forEachAfter(after, kind, visit, wanted);
+            if (read || read.error().code != ErrorCode::ParseError) return read;
             const auto next = readableAfter(after);
             if (!next) return {};
             after = *next;
@@ -72,11 +77,12 @@ struct SessionReader::State {
     }
     /// The same for rows behind row `after`, which becomes the last that was read.
     template <class Visit>
-    [[nodiscard]] Result<void> forEachAfter(std::int64_t& after, const char* kind, Visit& visit) const {
+    [[nodiscard]] Result<void> forEachAfter(std::int64_t& after, std::string_view kind, Visit& visit,
+                                            const Wanted& wanted) const {
         auto rows =
             source.database().prepare("SELECT seq, t_ns, name, body FROM entries WHERE kind=? AND seq>? ORDER BY seq");
         if (!rows) return failure(rows);
-        rows->bind(1, std::string_view(kind));
+        rows->bind(1, kind);
         rows->bind(2, after);
         for (;;) {
             auto more = rows->step();
@@ -84,11 +90,64 @@ struct SessionReader::State {
             if (!*more) return {};
             after = rows->integer(0);
             auto found = row(after, kind, Instant(rows->integer(1)), rows->text(2), rows->text(3));
-            if (!found && damaged) continue;
-            if (!found) return failure(found);
-            visit(std::move(*found));
+            if (found && (!wanted || wanted(found->name))) visit(std::move(*found));
         }
     }
+
+    /// Finds the rows that are neither chunks nor commands, in one pass: those are few, and of many kinds.
+    [[nodiscard]] Result<void> findFewRows() const {
+        const auto last = source.database().number("SELECT coalesce(max(seq), 0) FROM entries");
+        if (!last) return failure(last);
+        auto rows = source.database().prepare(
+            "SELECT seq, kind FROM entries WHERE seq>? AND seq<=? AND kind NOT IN ('chunk', 'command') ORDER BY seq");
+        if (!rows) return failure(rows);
+        rows->bind(1, foundTo);
+        rows->bind(2, *last);
+        for (;;) {
+            auto more = rows->step();
+            if (!more) return failure(more);
+            if (!*more) break;
+            fewRows[std::string(rows->text(1))].push_back(rows->integer(0));
+            foundTo = rows->integer(0);
+        }
+        foundTo = *last;
+        return {};
+    }
+
+    /// Calls `visit(SessionRow)` for every row of a kind whose name is `wanted`, if that is not empty.
+    template <class Visit>
+    [[nodiscard]] Result<void> forEach(std::string_view kind, Visit visit, const Wanted& wanted = {}) const {
+        if (damaged) return forEachReadable(kind, visit, wanted);
+        const bool many = kind == kind::kChunk || kind == kind::kCommand;
+        auto rows = source.database().prepare(
+            fmt::format("SELECT seq, t_ns, name, body FROM entries WHERE {}=? ORDER BY seq", many ? "kind" : "seq"));
+        if (!rows) return failure(rows);
+        const auto visitRows = [&]() -> Result<void> {
+            for (;;) {
+                auto more = rows->step();
+                if (!more) return failure(more);
+                if (!*more) return {};
+                if (wanted && !source.sealed() && !wanted(rows->text(2))) continue;
+                auto found = row(rows->integer(0), kind, Instant(rows->integer(1)), rows->text(2), rows->text(3));
+                if (!found) return failure(found);
+                if (!wanted || wanted(found->name)) visit(std::move(*found));
+            }
+        };
+        if (many) {
+            rows->bind(1, kind);
+            return visitRows();
+        }
+        if (auto done = findFewRows(); !done) return done;
+        const auto of = fewRows.find(kind);
+        if (of == fewRows.end()) return {};
+        for (const auto seq : of->second) {
+            rows->reset();
+            rows->bind(1, seq);
+            if (auto done = visitRows(); !done) return done;
+        }
+        return {};
+    }
+
     /// Finds the end of a damaged part behind row `after`: the least number behind which a row can be read. Returns
     /// nothing if none can.
     [[nodiscard]] std::optional<std::int64_t> readableAfter(std::int64_t after) const {
@@ -125,16 +184,17 @@ struct SessionReader::State {
         return rows;
     }
 
-    [[nodiscard]] Result<void> forEachChunk(
-        const SessionStreamInfo& info, const char* order,
-        const std::function<bool(const ChunkHead&, const SampleBlock&)>& visit) const {
+    [[nodiscard]] Result<void> forEachChunk(const SessionStreamInfo& info, const char* order,
+                                            const std::function<bool(const ChunkHead&, const SampleBlock&)>& visit,
+                                            std::int64_t each = 1) const {
         if (damaged) return forEachReadableChunk(info, visit);
         auto rows = source.database().prepare(
             fmt::format("SELECT e.seq, e.body, c.stamps, c.data FROM chunks c JOIN entries e ON e.seq = c.seq "
-                        "WHERE c.stream=? ORDER BY c.idx {}",
+                        "WHERE c.stream=? AND c.idx % ?=0 ORDER BY c.idx {}",
                         order));
         if (!rows) return failure(rows);
         rows->bind(1, std::int64_t{info.id});
+        rows->bind(2, each);
         SampleBlock block;
         for (;;) {
             auto more = rows->step();
@@ -174,7 +234,7 @@ struct SessionReader::State {
         if (!body) return failure(body);
         const auto inside = sealedText(seq, *body);
         if (!inside) return failure(inside);
-        return parseChunkHead(dumpJson(*inside));
+        return chunkHeadFrom(*inside);
     }
     [[nodiscard]] Result<nlohmann::json> sealedText(std::int64_t seq, const nlohmann::json& body) const {
         auto at = source.database().number(fmt::format("SELECT t_ns FROM entries WHERE seq={}", seq));
@@ -310,31 +370,19 @@ Result<void> SessionReader::checkChain() const {
 
 Result<SessionLabels> SessionReader::labels() const {
     SessionLabels labels;
-    if (state_->source.sealed()) {
-        if (state_->locked()) labels.note = "sealed";
-        auto read = state_->forEach(kind::kReport, [&](const SessionRow& row) {
-            if (row.name == "notes") applyLabels(row.body, labels);
-        });
-        if (!read) return failure(read);
-        return labels;
-    }
-    auto rows = state_->source.database().prepare(
-        "SELECT seq, body FROM entries WHERE kind='annotation' OR (kind='report' AND name='notes') ORDER BY seq");
-    if (!rows) return failure(rows);
-    for (;;) {
-        auto more = rows->step();
-        if (!more) return failure(more);
-        if (!*more) return labels;
-        const auto body = parsed(rows->text(1), rows->integer(0));
-        if (!body) return failure(body);
-        applyLabels(*body, labels);
-    }
+    if (state_->locked()) labels.note = "sealed";
+    const auto apply = [&](const SessionRow& row) { applyLabels(row.body, labels); };
+    auto read = state_->forEach(kind::kReport, apply, [](std::string_view name) { return name == "notes"; });
+    if (read && !state_->source.sealed()) read = state_->forEach(kind::kAnnotation, apply);
+    if (!read) return failure(read);
+    return labels;
 }
 
 Result<std::vector<SessionRow>> SessionReader::events() const { return state_->rows(kind::kEvent); }
 Result<std::vector<SessionRow>> SessionReader::commands() const { return state_->rows(kind::kCommand); }
-Result<void> SessionReader::forEachCommand(const std::function<void(const SessionRow&)>& visit) const {
-    return state_->forEach(kind::kCommand, visit);
+Result<void> SessionReader::forEachCommand(const std::function<void(const SessionRow&)>& visit,
+                                           const std::function<bool(std::string_view name)>& wanted) const {
+    return state_->forEach(kind::kCommand, visit, wanted);
 }
 Result<std::vector<SessionRow>> SessionReader::measurements() const { return state_->rows(kind::kMeasurement); }
 Result<std::vector<SessionRow>> SessionReader::log() const { return state_->rows(kind::kLog); }
@@ -444,6 +492,34 @@ Result<void> SessionReader::forEachChunk(int stream, const std::function<bool(co
     const auto info = state_->stream(stream);
     if (!info) return failure(info);
     return state_->forEachChunk(*info, "ASC", [&](const ChunkHead&, const SampleBlock& block) { return visit(block); });
+}
+
+Result<StreamOutline> SessionReader::outline(int stream, std::uint64_t most) const {
+    if (auto open = state_->unlocked("the samples"); !open) return failure(open);
+    const auto info = state_->stream(stream);
+    if (!info) return failure(info);
+    const auto columns = info->stream.columns.size();
+    std::uint64_t samples = 0;
+    auto last = state_->forEachChunk(*info, "DESC", [&](const ChunkHead& head, const SampleBlock&) {
+        samples = head.firstSample + head.samples;
+        return false;
+    });
+    if (!last) return failure(last);
+    StreamOutline outline;
+    const auto kept = std::max<std::uint64_t>(1, most / columns);
+    outline.oneIn = static_cast<std::int64_t>(samples / kept + (samples % kept != 0 || samples == 0 ? 1 : 0));
+    auto& into = outline.samples;
+    const auto take = [&](const ChunkHead&, const SampleBlock& block) {
+        if (outline.oneIn > 1 && into.samples() > 0) {
+            into.t_s.push_back(into.t_s.back());
+            into.values.insert(into.values.end(), columns, std::numeric_limits<double>::quiet_NaN());
+        }
+        into.t_s.insert(into.t_s.end(), block.t_s.begin(), block.t_s.end());
+        into.values.insert(into.values.end(), block.values.begin(), block.values.end());
+        return true;
+    };
+    if (auto read = state_->forEachChunk(*info, "ASC", take, outline.oneIn); !read) return failure(read);
+    return outline;
 }
 
 Result<std::string> SessionReader::reproducibleText() const {

@@ -14,6 +14,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/Result.h"
@@ -23,6 +24,12 @@
 #include "core/session/SessionTypes.h"
 
 namespace tacto {
+
+/// A stream for drawing, whatever its length.
+struct StreamOutline {
+    SampleBlock samples;
+    std::int64_t oneIn = 1;  ///< of so many chunks, one was read
+};
 
 class SessionReader {
 public:
@@ -62,8 +69,9 @@ public:
     // Each list is in the order of writing. Errors: ParseError naming the row; Io.
     [[nodiscard]] Result<std::vector<SessionRow>> events() const;
     [[nodiscard]] Result<std::vector<SessionRow>> commands() const;
-    /// Calls `visit` for each command in turn: a list of hours of trains would take too much memory.
-    [[nodiscard]] Result<void> forEachCommand(const std::function<void(const SessionRow&)>& visit) const;
+    /// Calls `visit` for each command whose name is `wanted`: a list of hours of trains would take too much memory.
+    [[nodiscard]] Result<void> forEachCommand(const std::function<void(const SessionRow&)>& visit,
+                                              const std::function<bool(std::string_view name)>& wanted = {}) const;
     [[nodiscard]] Result<std::vector<SessionRow>> measurements() const;
     [[nodiscard]] Result<std::vector<SessionRow>> log() const;
     /// The `body` of each row is the item that reportItem() was given.
@@ -80,6 +88,9 @@ public:
     [[nodiscard]] Result<SampleBlock> samples(int stream) const;
     /// Reads chunk by chunk, for sessions larger than memory. `visit` returns false to stop.
     [[nodiscard]] Result<void> forEachChunk(int stream, const std::function<bool(const SampleBlock&)>& visit) const;
+    /// Returns all samples of a stream; or, if they have more than `most` values, those of one chunk in so many that
+    /// they have about `most`, with a row of NaN between.
+    [[nodiscard]] Result<StreamOutline> outline(int stream, std::uint64_t most) const;
 
     /// Returns all that the same seed must reproduce, one line per row, with samples as hexadecimal digests; without
     /// wall time, paths, versions, annotations and the chain. Equal texts mean equal runs.

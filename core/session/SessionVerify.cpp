@@ -185,7 +185,7 @@ private:
             }
         } else if (entry.kind == kind::kChunk) {
             ++report_.chunks;
-            return sealed_ ? checkSealedChunk(entry, body, chunk) : checkChunk(entry, chunk);
+            return sealed_ ? checkSealedChunk(entry, body, chunk) : checkChunk(entry, body, chunk);
         } else if (entry.kind == kind::kCapture) {
             ++report_.captures;
             return checkCapture(entry, body, capture);
@@ -198,8 +198,8 @@ private:
         return {};
     }
 
-    [[nodiscard]] Result<void> checkChunk(const Entry& entry, Statement& row) {
-        const auto head = parseChunkHead(entry.body);
+    [[nodiscard]] Result<void> checkChunk(const Entry& entry, const nlohmann::json& body, Statement& row) {
+        const auto head = body.is_null() ? parseChunkHead(entry.body) : chunkHeadFrom(body);
         if (!head) {
             problem("row {}: {}", entry.seq, head.error().message);
             return {};

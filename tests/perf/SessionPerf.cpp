@@ -1,16 +1,19 @@
 // Recording rate compared with the possible maximum: plain inserts of equally large blobs into SQLite with the same
-// pragmas, page size, index and commits. The goal: "ratio" of BM_SessionAgainstBareBlobs is at least 0.8. Both are
-// timed in turns in one benchmark, so that a busy machine slows both equally.
+// pragmas, page size, index and commits. The goal: BM_SessionAgainstBareBlobs has at least 0.9 of their rate synced and
+// 0.8 otherwise. Both are timed in turns in one benchmark, so that a busy machine slows both equally.
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <random>
 #include <sqlite3.h>
 #include <unistd.h>
 
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
 #include "core/session/SessionWriter.h"
+#include "tests/perf/Verdict.h"
 
 namespace tacto {
 namespace {
@@ -28,9 +31,11 @@ std::filesystem::path scratch(const char* name) {
 
 SampleBlock aSecond(double t0) {
     SampleBlock block;
+    std::mt19937 random(static_cast<unsigned>(t0));
+    std::normal_distribution<double> noise(0, 100);  // in steps of a converter: what packing cannot foresee
     for (std::size_t i = 0; i < kRate; ++i) {
         block.t_s.push_back(t0 + static_cast<double>(i) / kRate);
-        for (std::size_t a = 0; a < kAxes; ++a) block.values.push_back(static_cast<double>(i * 7919 + a) * 1e-3);
+        for (std::size_t a = 0; a < kAxes; ++a) block.values.push_back(std::round(noise(random)) * 0.00478515625);
     }
     return block;
 }
@@ -171,7 +176,9 @@ void BM_SessionAgainstBareBlobs(benchmark::State& state) {
         ratios.push_back(floor / ours);
     }
     std::sort(ratios.begin(), ratios.end());
-    state.counters["ratio"] = ratios[ratios.size() / 2];
+    const double ratio = ratios[ratios.size() / 2];
+    state.counters["ratio"] = ratio;
+    state.SetLabel(verdict(1 / ratio, "bare blobs", 1 / (state.range(0) != 0 ? 0.9 : 0.8)));
 }
 BENCHMARK(BM_SessionAgainstBareBlobs)
     ->ArgName("synced")

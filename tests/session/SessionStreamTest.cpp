@@ -122,6 +122,41 @@ TEST(SessionStream, ChunksAreVisitedInOrderUntilTheVisitorHasEnough) {
     EXPECT_EQ(visited, 2);
 }
 
+TEST(SessionStream, AnOutlineHasAboutTheValuesAskedForAndGapsBetween) {
+    const ScratchDir dir;
+    VirtualClock clock;
+    {
+        auto writer = SessionWriter::create(dir.path() / "s.tacto", {}, clock).value();
+        const int id = writer->addStream(SessionStream{"a", "", "", {"x", "y"}, 100}).value();
+        for (int second = 0; second < 200; ++second) {
+            clock.advanceTo(std::chrono::seconds(second));
+            ASSERT_TRUE(writer->append(id, test::ramp(second, 100, 100, 2)));
+        }
+    }
+    const auto reader = SessionReader::open(dir.path() / "s.tacto").value();
+    const auto all = reader.samples(1).value();
+    EXPECT_EQ(reader.outline(2, 1000).error().code, ErrorCode::NotFound);
+    for (const std::uint64_t most : {1U, 399U, 4000U, 20'000U, 39'999U, 40'001U, 1'000'000U}) {
+        const auto outline = reader.outline(1, most).value();
+        const auto& some = outline.samples;
+        ASSERT_EQ(some.values.size(), 2 * some.samples());
+        EXPECT_EQ(outline.oneIn > 1, most < all.values.size()) << most;
+        EXPECT_LE(some.values.size(), most + 2 * 102 * 2) << "one chunk and the gaps more";
+        if (most >= 4000) EXPECT_GE(some.values.size(), std::min<std::size_t>(most, all.values.size()) / 3) << most;
+        std::size_t at = 0;
+        for (std::size_t i = 0; i < some.samples(); ++i) {
+            if (std::isnan(some.values[2 * i])) {
+                EXPECT_GT(outline.oneIn, 1);
+                continue;
+            }
+            while (at < all.samples() && all.t_s[at] != some.t_s[i]) ++at;
+            ASSERT_LT(at, all.samples()) << "in order, and recorded";
+            EXPECT_EQ(all.values[2 * at], some.values[2 * i]);
+            EXPECT_EQ(all.values[2 * at + 1], some.values[2 * i + 1]);
+        }
+    }
+}
+
 TEST(SessionStream, NamesTheColumnsOfASensor) {
     const ScratchDir dir;
     VirtualClock clock;
