@@ -160,9 +160,10 @@ QToolBar#workspaces > QToolButton:focus { border: 2px solid @text; border-left: 
 QToolBar#safetyToolBar { border-bottom: 1px solid @line; }
 QStatusBar { background: @window; border-top: 1px solid @line; color: @quiet; }
 QStatusBar::item { border: none; }
-QStatusBar QLabel, QStatusBar QToolButton {
-    font-size: ^9; color: @quiet; border: none; padding: 0 ~4; min-height: ~20;
-}
+QStatusBar QLabel, QStatusBar QToolButton { font-size: ^9; color: @quiet; }
+QStatusBar QLabel { border: none; padding: 0 ~4; min-height: ~20; }
+QStatusBar QToolButton { border: 2px solid transparent; padding: 0 ~2; min-height: ~16; }
+QStatusBar QToolButton:focus { border: 2px solid @text; padding: 0 ~2; }
 
 QPushButton { background: @base; border: 1px solid @edge; border-radius: 4px; padding: 0 ~11; min-height: ~30; }
 QPushButton:hover { background: @sunken; }

@@ -37,7 +37,11 @@ RecordingLine::RecordingLine(BenchController& controller, QStatusBar& bar)
     connect(message_, &QToolButton::clicked, this, &RecordingLine::showLog);
     bar.addPermanentWidget(message_);
     bar.installEventFilter(this);
-    afterLookChange(bar, [this] { fitMessage(); });
+    fixHeight();
+    afterLookChange(bar, [this] {
+        fixHeight();
+        fitMessage();
+    });
     sayRecording(tr("Nothing is being recorded"));
     refresh();
 }
@@ -109,6 +113,15 @@ void RecordingLine::say(const QString& message, bool isError) {
 }
 
 bool RecordingLine::saysOff() const { return said_.contains(tr("Output is off")) || said_.contains(tr("Disarmed")); }
+
+/// A sign from a taller font ("→") must not make the bar, and with it every dock, higher or lower.
+void RecordingLine::fixHeight() {
+    const auto text = message_->text();
+    message_->setText(tr("No messages"));
+    message_->setFixedHeight(message_->sizeHint().height());
+    message_->setText(text);
+    recording_->setFixedHeight(message_->minimumHeight());
+}
 
 void RecordingLine::fitMessage() {
     if (said_.isEmpty()) return;

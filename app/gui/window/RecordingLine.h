@@ -34,6 +34,7 @@ public:
 private:
     void sayRecording(const QString& text);
     void sayRecorded(const std::filesystem::path& session);
+    void fixHeight();
     void fitMessage();
 
     BenchController& controller_;

@@ -106,7 +106,9 @@ ScopeTools::ScopeTools(QMenu* files, QWidget* parent)
         const bool worded = single_->toolButtonStyle() == Qt::ToolButtonTextBesideIcon;
         const int word = fontMetrics().horizontalAdvance(single_->text()) + 2 * fontMetrics().averageCharWidth();
         const bool room = width() >= layout()->sizeHint().width() + (worded ? 0 : word);
-        if (room != worded) single_->setToolButtonStyle(room ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
+        if (room == worded) return;
+        single_->setToolButtonStyle(room ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
+        style()->polish(single_);  // the text size may have changed while the icon stood alone
     });
 }
 

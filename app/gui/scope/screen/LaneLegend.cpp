@@ -52,8 +52,13 @@ LaneLegend::LaneLegend(const ScopeModel& model, QWidget* parent) : QLabel(parent
     setTextSize(*this, TextSize::Small, true);
     connect(&model_, &ScopeModel::viewChanged, this, &LaneLegend::follow);
     connect(&model_, &ScopeModel::lanesChanged, this, &LaneLegend::follow);
-    onLookChange(*this, [this] { follow(); });
-    follow();
+    const auto look = [this] {
+        // The dashes come from a taller font; a legend that appears must not make the row higher.
+        setFixedHeight(QFontMetrics(textFont(TextSize::Small, QFont::DemiBold)).height());
+        follow();
+    };
+    onLookChange(*this, look);
+    look();
 }
 
 void LaneLegend::follow() {
