@@ -102,7 +102,10 @@ void UnfinishedOffer::offer(const std::optional<Unfinished>& unfinished) {
 }
 
 /// Makes room for all lines of the sentence, even on a page that scrolls.
-void UnfinishedOffer::fit() { says_->setMinimumHeight(std::max(0, says_->heightForWidth(says_->width()))); }
+void UnfinishedOffer::fit() {
+    says_->setMinimumHeight(0);  // the height for a width is never below it
+    says_->setMinimumHeight(std::max(0, says_->heightForWidth(says_->width())));
+}
 
 std::string UnfinishedOffer::chosen() const {
     return !offered_ ? "" : goOn_->isChecked() ? "resume" : end_->isChecked() ? "end" : "";
