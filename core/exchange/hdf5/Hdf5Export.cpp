@@ -44,10 +44,9 @@ Result<void> writeStream(const ExportSource& source, const ExportStream& stream,
     const auto width = stream.channels.size();
     steps << source.forEachChunk(stream, [&](const SampleBlock& block) -> Result<void> {
         Steps added;
-        for (std::size_t i = 0; added && i < block.samples(); ++i) {
-            added << columns[0].add(block.t_s[i]);
-            for (std::size_t c = 0; c < width; ++c) added << columns[c + 1].add(block.values[i * width + c]);
-        }
+        added << columns[0].add(block.t_s, 1);
+        for (std::size_t c = 0; added && block.samples() > 0 && c < width; ++c)
+            added << columns[c + 1].add(std::span(block.values).subspan(c), width);
         return added.result();
     });
     if (!steps) return steps.result();

@@ -114,6 +114,19 @@ Result<void> Hdf5Column::add(double value) {
     return doubles_.size() == kChunkRows ? write(false) : Result<void>();
 }
 
+Result<void> Hdf5Column::add(std::span<const double> values, std::size_t step) {
+    for (std::size_t i = 0; i < values.size();) {
+        const auto left = (values.size() - i + step - 1) / step;
+        const auto some = std::min(left, kChunkRows - doubles_.size());
+        const auto before = doubles_.size();
+        doubles_.resize(before + some);
+        for (std::size_t k = 0; k < some; ++k, i += step) doubles_[before + k] = values[i];
+        if (doubles_.size() < kChunkRows) break;
+        if (auto written = write(false); !written) return written;
+    }
+    return {};
+}
+
 Result<void> Hdf5Column::add(std::span<const float> values) {
     while (!values.empty()) {
         const auto some = std::min(values.size(), kChunkRows - floats_.size());

@@ -71,6 +71,8 @@ public:
     static constexpr std::uint64_t kUnknownRows = ~std::uint64_t{0};
 
     [[nodiscard]] Result<void> add(double value);
+    /// Adds every `step`-th value, from the first.
+    [[nodiscard]] Result<void> add(std::span<const double> values, std::size_t step);
     [[nodiscard]] Result<void> add(std::span<const float> values);
     [[nodiscard]] Result<void> add(std::string_view text);
     /// Writes what is left and returns the data set, for its attributes.
