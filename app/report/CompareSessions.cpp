@@ -351,9 +351,10 @@ private:
 
     void totals() {
         quantity("Duration", "s", toSeconds(a_.length), toSeconds(b_.length), kNaN);
-        quantity("Trains delivered", "", static_cast<double>(a_.trains), static_cast<double>(b_.trains), kNaN);
-        if (a_.unit == b_.unit && a_.trains > 0 && b_.trains > 0)
-            quantity("Largest amplitude commanded", a_.unit.toStdString(), a_.most, b_.most, kNaN);
+        const auto &a = a_.delivered, &b = b_.delivered;
+        quantity("Trains delivered", "", static_cast<double>(a.trains), static_cast<double>(b.trains), kNaN);
+        if (a.unit == b.unit && a.trains > 0 && b.trains > 0)
+            quantity("Largest amplitude commanded", a.unit, a.most, b.most, kNaN);
     }
 
     using Conditions = std::map<std::string, std::vector<Repeated>>;
@@ -434,7 +435,8 @@ private:
 
 }  // namespace
 
-Result<ComparedSession> readForComparison(const SessionReader& reader) {
+Result<ComparedSession> readForComparison(const SessionReader& reader,
+                                          const std::function<void(const SessionRow&)>& alsoTrain) {
     ComparedSession session;
     session.about = reader.about();
     session.closed = reader.closed();
@@ -445,15 +447,11 @@ Result<ComparedSession> readForComparison(const SessionReader& reader) {
         return {};
     };
     std::vector<SessionRow> items;
-    Delivered delivered;
     if (auto done = take(reader.labels(), session.labels); !done) return failure(done);
     if (auto done = take(reader.verdicts(), session.verdicts); !done) return failure(done);
     if (auto done = take(reader.trials(), session.trials); !done) return failure(done);
     if (auto done = take(reader.reportItems(), items); !done) return failure(done);
-    if (auto done = take(deliveredIn(reader), delivered); !done) return failure(done);
-    session.trains = delivered.trains;
-    session.most = delivered.most;
-    session.unit = textFrom(delivered.unit);
+    if (auto done = take(deliveredIn(reader, alsoTrain), session.delivered); !done) return failure(done);
     for (const auto& item : items) {
         if (textOr(item.body, "kind") != "about") continue;
         for (const auto& parameter : valueOr(item.body, "parameters"))

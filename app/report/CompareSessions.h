@@ -9,7 +9,7 @@
 // Thread-safety: pure functions.
 #pragma once
 
-#include <QString>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,6 +17,7 @@
 #include "core/base/Result.h"
 #include "core/base/Units.h"
 #include "core/kinds/SessionComparison.h"
+#include "core/session/Origin.h"
 #include "core/session/SessionTypes.h"
 
 namespace tacto {
@@ -32,12 +33,11 @@ struct ComparedSession {
     std::vector<SessionVerdict> verdicts;
     std::vector<SessionTrial> trials;
     std::map<std::string, nlohmann::json> settings;  ///< by name: "label", "unit", or a choice's displayed words
-    std::uint64_t trains = 0;                        ///< trains delivered, without impedance checks
-    double most = 0;                                 ///< largest amplitude in `unit`
-    QString unit;                                    ///< "V" or "mA"
+    Delivered delivered;
 };
-/// Errors: as SessionReader.
-[[nodiscard]] Result<ComparedSession> readForComparison(const SessionReader& reader);
+/// Calls `alsoTrain` for the row of each train delivered. Errors: as SessionReader.
+[[nodiscard]] Result<ComparedSession> readForComparison(const SessionReader& reader,
+                                                        const std::function<void(const SessionRow&)>& alsoTrain = {});
 
 [[nodiscard]] SessionComparison compareTwo(const ComparedSession& a, const ComparedSession& b);
 

@@ -24,30 +24,65 @@ std::size_t columnOf(const SessionStream& stream, std::string_view name) {
     return stream.columns.size();
 }
 
-Result<void> readCourse(const SessionReader& reader, ReadSession& session) {
-    auto& course = session.course;
-    const auto commands = reader.commands();
-    if (!commands) return failure(commands);
-    for (const auto& row : *commands) {
-        if (row.name != "delivered") continue;
-        const bool current = !valueOr(row.body, "amplitude_ma").is_null();
-        course.unit = amplitudeUnit(current ? Drive::Current : Drive::Voltage);
-        course.train_s.push_back(toSeconds(row.at));
-        course.amplitude.push_back(numberOr(row.body, current ? "amplitude_ma" : "amplitude_v"));
+constexpr std::size_t kMostTrains = 10'000;
+constexpr std::uint64_t kMostFrameValues = 1'000'000;
+
+bool byCurrent(const SessionRow& train) { return !valueOr(train.body, "amplitude_ma").is_null(); }
+double amplitudeOf(const SessionRow& train) {
+    return numberOr(train.body, byCurrent(train) ? "amplitude_ma" : "amplitude_v");
+}
+
+/// Collects trains; of too many, the largest of each few.
+class TrainCourse {
+public:
+    explicit TrainCourse(SessionCourse& course) : course_(course) {}
+    void add(const SessionRow& train) {
+        course_.unit = amplitudeUnit(byCurrent(train) ? Drive::Current : Drive::Voltage);
+        const double amplitude = amplitudeOf(train);
+        auto& all = course_.amplitude;
+        if (count_++ % course_.perTrain == 0) {
+            if (all.size() == kMostTrains) halve();
+            course_.train_s.push_back(toSeconds(train.at));
+            all.push_back(amplitude);
+        } else if (!(amplitude <= all.back())) {
+            course_.train_s.back() = toSeconds(train.at);
+            all.back() = amplitude;
+        }
     }
+
+private:
+    void halve() {
+        auto& all = course_.amplitude;
+        for (std::size_t i = 0; i < all.size() / 2; ++i) {
+            const auto larger = 2 * i + (all[2 * i + 1] > all[2 * i] ? 1 : 0);
+            all[i] = all[larger];
+            course_.train_s[i] = course_.train_s[larger];
+        }
+        all.resize(all.size() / 2);
+        course_.train_s.resize(all.size());
+        course_.perTrain *= 2;
+    }
+    SessionCourse& course_;
+    std::size_t count_ = 0;
+};
+
+Result<void> readFrames(const SessionReader& reader, ReadSession& session) {
+    auto& course = session.course;
     for (const auto& info : session.streams) {
         if (info.stream.kind != "frames") continue;
         const auto columns = info.stream.columns.size();
         const auto r = columnOf(info.stream, "R"), p = columnOf(info.stream, "P");
         if (r == columns || p == columns) continue;
-        return reader.forEachChunk(info.id, [&](const SampleBlock& block) {
-            for (std::size_t i = 0; i < block.samples(); ++i) {
-                course.frame_s.push_back(block.t_s[i]);
-                course.roughness.push_back(block.values[i * columns + r]);
-                course.pressure.push_back(block.values[i * columns + p]);
-            }
-            return true;
-        });
+        auto read = reader.outline(info.id, kMostFrameValues);
+        if (!read) return failure(read);
+        const auto& frames = read->samples;
+        course.oneIn = read->oneIn;
+        for (std::size_t i = 0; i < frames.samples(); ++i) {
+            course.roughness.push_back(frames.values[i * columns + r]);
+            course.pressure.push_back(frames.values[i * columns + p]);
+        }
+        course.frame_s = std::move(read->samples.t_s);
+        return {};
     }
     return {};
 }
@@ -112,13 +147,13 @@ Result<void> readCommands(const SessionReader& reader, ReadSession& session) {
             capture.load = QObject::tr("%1, measured").arg(quantityText(delivered.back().impedance_ohm, "ohm", 3));
         delivered.clear();
     };
-    auto read = reader.forEachCommand([&](const SessionRow& row) {
+    const auto take = [&](const SessionRow& row) {
         for (; next != session.captures.end() && next->seq < row.seq; ++next) close(*next);
-        if (row.name != "delivered" || next == session.captures.end()) return;
-        const bool current = !valueOr(row.body, "amplitude_ma").is_null();
-        delivered.push_back({row.seq, numberOr(row.body, current ? "amplitude_ma" : "amplitude_v"),
-                             numberOr(row.body, "interval_s"), numberOr(row.body, "impedance_ohm"), current});
-    });
+        if (next == session.captures.end()) return;
+        delivered.push_back({row.seq, amplitudeOf(row), numberOr(row.body, "interval_s"),
+                             numberOr(row.body, "impedance_ohm"), byCurrent(row)});
+    };
+    auto read = reader.forEachCommand(take, [](std::string_view name) { return name == "delivered"; });
     for (; next != session.captures.end(); ++next) close(*next);
     return read;
 }
@@ -129,7 +164,8 @@ Result<ReadSession> readSession(const std::filesystem::path& path) {
     const auto reader = SessionReader::open(path);
     if (!reader) return failure(reader);
     ReadSession session;
-    auto compared = readForComparison(*reader);
+    TrainCourse trains(session.course);
+    auto compared = readForComparison(*reader, [&](const SessionRow& train) { trains.add(train); });
     if (!compared) return failure(compared);
     static_cast<ComparedSession&>(session) = std::move(*compared);
     session.path = path;
@@ -145,7 +181,7 @@ Result<ReadSession> readSession(const std::filesystem::path& path) {
     const auto signatures = signaturesIn(path);
     if (!signatures) return failure(signatures);
     session.signatures = checkSignatures(path, *signatures);
-    if (auto done = take(sessionMarks(*reader), session.marks); !done) return failure(done);
+    if (auto done = take(sessionMarks(*reader, session.delivered), session.marks); !done) return failure(done);
     if (auto done = take(reader->events(), session.events); !done) return failure(done);
     if (auto done = take(reader->log(), session.log); !done) return failure(done);
     if (auto done = take(reader->streams(), session.streams); !done) return failure(done);
@@ -156,8 +192,10 @@ Result<ReadSession> readSession(const std::filesystem::path& path) {
         if (auto done = readCommands(*reader, session); !done) return failure(done);
     if (auto done = take(reader->reportItems(), items); !done) return failure(done);
     static_cast<SessionFigure&>(session) = figureIn(items, *reader);
-    if (session.figure || session.planeOfTrials) return session;
-    if (auto read = readCourse(*reader, session); !read) return failure(read);
+    if (session.figure || session.planeOfTrials)
+        session.course = {};
+    else if (auto read = readFrames(*reader, session); !read)
+        return failure(read);
     return session;
 }
 

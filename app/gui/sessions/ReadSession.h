@@ -1,4 +1,4 @@
-// ReadSession.h - a session read for viewing: everything except the samples, and the data for its picture.
+// ReadSession.h - a session read for viewing: everything except the samples and commands, and the data for its picture.
 //
 // Thread-safety: values; readSession() only reads the file, and runs on another thread.
 #pragma once
@@ -19,11 +19,14 @@
 
 namespace tacto::gui {
 
-/// The data drawn for a session without trials and figures: what the fingertip felt and what was delivered.
+/// The data drawn for a session without trials and figures: what the fingertip felt and what was delivered. A long
+/// session has no more of them than a picture shows.
 struct SessionCourse {
     std::vector<double> frame_s, roughness, pressure;
     std::vector<double> train_s, amplitude;
-    QString unit;  ///< unit of the amplitudes, "V" or "mA"
+    QString unit;              ///< unit of the amplitudes, "V" or "mA"
+    std::int64_t oneIn = 1;    ///< of so many moments, frames hold one
+    std::size_t perTrain = 1;  ///< of so many trains, the largest amplitude is here
     [[nodiscard]] bool empty() const { return frame_s.empty() && train_s.empty(); }
 };
 

@@ -146,11 +146,12 @@ QString ending(const ReadSession& session) {
     QStringList found;
     const auto trials = session.trials.size();
     if (trials > 0) found << (trials == 1 ? QObject::tr("1 trial") : QObject::tr("%1 trials").arg(trials));
-    if (session.trains > 0)
-        found << (session.unit.isEmpty() ? QObject::tr("%1 trains").arg(session.trains)
+    const auto& delivered = session.delivered;
+    if (delivered.trains > 0)
+        found << (delivered.unit.empty() ? QObject::tr("%1 trains").arg(delivered.trains)
                                          : QObject::tr("%1 trains of at most %2")
-                                               .arg(session.trains)
-                                               .arg(quantityText(session.most, session.unit, 4)));
+                                               .arg(delivered.trains)
+                                               .arg(quantityText(delivered.most, qtext(delivered.unit), 4)));
     return found.isEmpty() ? words("Ended in order; nothing was delivered.")
                            : QObject::tr("Ended in order: %1.").arg(found.join(", "));
 }

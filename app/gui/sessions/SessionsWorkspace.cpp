@@ -25,6 +25,8 @@ namespace {
 constexpr int kPanesFrom = 820;  // width in pixels from which both panes are side by side
 constexpr int kListMargin = 16, kAroundActions = 12;
 
+constexpr std::uint64_t kMostValuesDrawn = 4'000'000;
+
 bool holdsTouch(const ReadSession& session) {
     return std::ranges::any_of(session.streams, [](const auto& info) {
         const auto& kind = info.stream.kind;
@@ -234,11 +236,12 @@ void SessionsWorkspace::drawStream(int stream) {
     reading_.take(
         [path = read_->path, stream](const WorkPort&) {
             const auto reader = SessionReader::open(path);
-            return reader ? reader->samples(stream) : failure(reader);
+            return reader ? reader->outline(stream, kMostValuesDrawn) : failure(reader);
         },
-        [this, info = *info](const Result<SampleBlock>& samples) {
-            if (!samples) return say(qtext(samples.error().message));
-            details_->showStream(info, *samples);
+        [this, info = *info](const Result<StreamOutline>& read) {
+            if (!read) return say(qtext(read.error().message));
+            details_->showStream(info, read->samples);
+            if (read->oneIn > 1) say(tr("The stream is long: of %1 moments, one is drawn.").arg(read->oneIn));
         });
 }
 

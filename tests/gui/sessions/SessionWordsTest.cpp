@@ -167,7 +167,7 @@ TEST_F(Words, APreviewIsTheMainPlot) {
     EXPECT_EQ(preview.title(), "");
     EXPECT_NE(preview.findChild<QLabel*>("nothingToDraw"), nullptr);
     gui::ReadSession live;
-    live.course = {{0, 1, 2}, {0.1, 0.2, 0.3}, {0.5, 0.5, 0.5}, {0.5, 1.5}, {10, 20}, "V"};
+    live.course = {{0, 1, 2}, {0.1, 0.2, 0.3}, {0.5, 0.5, 0.5}, {0.5, 1.5}, {10, 20}, "V", 1, 1};
     live.length = toInstant(2.0);
     live.events.push_back({1, toInstant(0.7), kOperatorMarkEvent, {{"text", "table bumped"}}});
     live.events.push_back({2, toInstant(0.8), "refused", {{"text", "no mark"}}});
