@@ -1,4 +1,5 @@
-// CommitThread.h - a thread that packs chunks and commits them to disk while the caller gathers the next ones.
+// CommitThread.h - a thread for one job at a time: packs chunks and commits them to disk while the caller gathers the
+// next ones, or checks samples while the caller reads on.
 //
 // Thread-safety: one caller. From start() until the job ends, the caller must not touch what the job uses.
 #pragma once

@@ -1,10 +1,12 @@
 #include "core/session/SessionVerify.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/base/JsonText.h"
 #include "core/base/Words.h"
 #include "core/session/Chunk.h"
+#include "core/session/CommitThread.h"
 #include "core/session/Database.h"
 #include "core/session/Digest.h"
 #include "core/session/Schema.h"
@@ -19,6 +21,9 @@ namespace {
 
 /// Enough to see what happened; one broken row could otherwise cause a problem in every row after it.
 constexpr std::size_t kMaxProblems = 40;
+
+/// So many bytes of samples are checked at once: passing each chunk alone to another thread would cost more.
+constexpr std::size_t kHandedOver = 1'000'000;
 
 /// No recording has so many rows; counting beyond this could overflow.
 constexpr std::int64_t kLastSeq = std::int64_t{1} << 60;
@@ -53,15 +58,46 @@ public:
 
     template <class... Args>
     void problem(fmt::format_string<Args...> text, Args&&... args) {
-        ++found_;
-        if (report_.problems.size() < kMaxProblems) {
-            report_.problems.push_back(fmt::format(text, std::forward<Args>(args)...));
-        }
+        problems_.add(row_, text, std::forward<Args>(args)...);
     }
-    [[nodiscard]] std::size_t found() const noexcept { return found_; }
+    /// Puts the problems into the report, in the order of the rows.
+    void report() {
+        handOver();
+        static_cast<void>(other_.wait());
+        auto first = problems_.texts;
+        first.insert(first.end(), samples_.texts.begin(), samples_.texts.end());
+        std::ranges::stable_sort(first, {}, &Problems::Text::row);
+        for (auto& each : first)
+            if (report_.problems.size() < kMaxProblems) report_.problems.push_back(std::move(each.text));
+        const auto found = problems_.found + samples_.found;
+        if (found > kMaxProblems) report_.problems.push_back(fmt::format("and {} more", found - kMaxProblems));
+    }
     [[nodiscard]] const std::vector<SessionSignature>& signatures() const noexcept { return signatures_; }
 
 private:
+    struct Problems {
+        struct Text {
+            std::int64_t row;
+            std::string text;
+        };
+        std::vector<Text> texts;  // the first kMaxProblems
+        std::size_t found = 0;
+        template <class... Args>
+        void add(std::int64_t row, fmt::format_string<Args...> text, Args&&... args) {
+            ++found;
+            if (texts.size() < kMaxProblems) texts.push_back({row, fmt::format(text, std::forward<Args>(args)...)});
+        }
+    };
+    /// A chunk whose samples have yet to be checked.
+    struct ReadChunk {
+        std::int64_t row = 0;
+        ChunkHead head;
+        std::string name;
+        std::size_t columns = 0;
+        std::optional<Digest> digest;
+        std::vector<std::byte> stamps, data;
+    };
+
     [[nodiscard]] Result<void> checkPages() {
         auto lines = database_.prepare("PRAGMA integrity_check(20)");
         if (!lines) return failure(lines);
@@ -111,6 +147,7 @@ private:
             if (stopped_ && stopped_()) return fail(ErrorCode::Stopped, "cancelled");
             const Entry entry{rows->integer(0), rows->text(1), rows->integer(2),
                               rows->text(3),    rows->text(4), digestFrom(rows->blob(5))};
+            row_ = entry.seq;
             if (entry.seq < expected || entry.seq > kLastSeq) {
                 problem("row {} has a number that no session gives", entry.seq);
                 break;
@@ -154,6 +191,7 @@ private:
             head_ = previous;
             lastKind = entry.kind;
         }
+        row_ = std::numeric_limits<std::int64_t>::max();
         if (report_.rows == 0) problem("the session has no rows");
         report_.head = hexText(head_);
         if (annotations_ > 0)
@@ -222,23 +260,50 @@ private:
         const auto there = bulkOf(entry, name, row);
         if (!there) return failure(there);
         if (!*there) return {};
-        const bool packed = head->packing.has_value();
         if (row.integer(0) != head->stream || row.integer(1) != head->index ||
-            row.isNull(2) != (packed || head->line.has_value())) {
+            row.isNull(2) != (head->packing || head->line)) {
             problem("{} is filed under stream {}, chunk {}", name, row.integer(0), row.integer(1));
         }
-        const std::span<const std::byte> parts[] = {row.blob(2), row.blob(3)};
-        auto unpacked = Result<void>();
-        if (stream.columns > 0) unpacked = unpackChunk(*head, stream.columns, parts[0], parts[1], scratch_);
-        if (!packed) {
-            if (crc32(parts) != head->crc) problem("{} does not match its CRC-32", name);
-        } else if (stream.columns > 0 && (unpacked || unpacked.error().code != ErrorCode::Unsupported)) {
-            if (!unpacked || crc32(recordedBytes(scratch_, !head->line)) != head->crc)
-                problem("{} does not match its CRC-32", name);
-        }
-        if (entry.digest != bulkDigest(parts)) problem("the samples of {} were altered: their hash is wrong", name);
-        if (!unpacked) problem("row {}: {}", entry.seq, unpacked.error().message);
+        const auto stamps = row.blob(2), data = row.blob(3);
+        read_.push_back({entry.seq,
+                         *head,
+                         name,
+                         stream.columns,
+                         entry.digest,
+                         {stamps.begin(), stamps.end()},
+                         {data.begin(), data.end()}});
+        readBytes_ += stamps.size() + data.size();
+        if (readBytes_ > kHandedOver) handOver();
         return {};
+    }
+
+    /// Lets the other thread check the samples read so far, while this one reads on.
+    void handOver() {
+        static_cast<void>(other_.wait());
+        std::swap(read_, checked_);
+        read_.clear();
+        readBytes_ = 0;
+        other_.start([this] {
+            for (const auto& chunk : checked_) checkSamples(chunk);
+            return Result<void>();
+        });
+    }
+
+    /// Runs on the other thread, which alone uses scratch_, checked_ and samples_ until it has ended.
+    void checkSamples(const ReadChunk& chunk) {
+        const auto& head = chunk.head;
+        const std::span<const std::byte> parts[] = {chunk.stamps, chunk.data};
+        auto unpacked = Result<void>();
+        if (chunk.columns > 0) unpacked = unpackChunk(head, chunk.columns, parts[0], parts[1], scratch_);
+        bool same = true;
+        if (!head.packing)
+            same = crc32(parts) == head.crc;
+        else if (chunk.columns > 0 && (unpacked || unpacked.error().code != ErrorCode::Unsupported))
+            same = unpacked && crc32(recordedBytes(scratch_, !head.line)) == head.crc;
+        if (!same) samples_.add(chunk.row, "{} does not match its CRC-32", chunk.name);
+        if (chunk.digest != bulkDigest(parts))
+            samples_.add(chunk.row, "the samples of {} were altered: their hash is wrong", chunk.name);
+        if (!unpacked) samples_.add(chunk.row, "row {}: {}", chunk.row, unpacked.error().message);
     }
 
     /// Moves `row` to the samples of an entry. If they are missing, adds a problem and returns false.
@@ -309,8 +374,15 @@ private:
     int annotations_ = 0;
     std::vector<SessionSignature> signatures_;
     std::uint64_t sealedRows_ = 0;
+    std::int64_t row_ = 0;  // being checked; 0 before the first
+    Problems problems_;
+    std::vector<ReadChunk> read_;
+    std::size_t readBytes_ = 0;
+    // For the other thread, as long as it runs.
+    std::vector<ReadChunk> checked_;
     SampleBlock scratch_;
-    std::size_t found_ = 0;
+    Problems samples_;    // of the samples
+    CommitThread other_;  // the last member, since its thread uses the others
 };
 
 constexpr Word<SessionStatus> kSessionStatusWords[] = {{"intact", SessionStatus::Intact},
@@ -362,9 +434,7 @@ Result<VerifyReport> verifySession(const std::filesystem::path& path, const std:
     if (report.recovered) {
         report.notes.push_back("Rows were recovered from the journal beside the file; keep both together.");
     }
-    if (inspection.found() > report.problems.size()) {
-        report.problems.push_back(fmt::format("and {} more", inspection.found() - report.problems.size()));
-    }
+    inspection.report();
     report.status = report.problems.empty() ? SessionStatus::Intact : SessionStatus::Damaged;
     return report;
 }

@@ -242,6 +242,32 @@ TEST_F(PackedSession, ThatIsDamagedIsReportedAsOneWithPlainChunks) {
     EXPECT_GT(checksums, 40);
 }
 
+TEST_F(PackedSession, WithManyDamagedChunksReportsThemInOrderAndCountsTheRest) {
+    VirtualClock clock;
+    Random random(3);
+    {
+        auto session = SessionWriter::create(path_, {}, clock).value();
+        const int id = session->addStream(SessionStream{"a", "", "", {"x", "y"}, 100}).value();
+        for (int chunk = 0; chunk < 60; ++chunk) {
+            clock.advanceTo(std::chrono::seconds(chunk));
+            auto block = test::ramp(chunk, 4000, 4000, 2);
+            for (auto& value : block.values) value = static_cast<double>(random() % 65'536) * 0.1;
+            ASSERT_TRUE(session->append(id, block));
+        }
+    }
+    EXPECT_EQ(verifySession(path_)->status, SessionStatus::Intact);
+    test::forge(path_, "UPDATE chunks SET data=substr(data, 1, length(data) - 1)");
+    const auto report = verifySession(path_).value();
+    ASSERT_EQ(report.problems.size(), 41U);
+    for (std::size_t i = 0; i < 39; i += 3) {
+        const auto chunk = fmt::format("chunk {} of stream 'a'", i / 3);
+        EXPECT_TRUE(report.problems[i].starts_with(chunk)) << report.problems[i];
+        EXPECT_TRUE(report.problems[i + 1].starts_with("the samples of " + chunk)) << report.problems[i + 1];
+        EXPECT_TRUE(report.problems[i + 2].starts_with("row ")) << report.problems[i + 2];
+    }
+    EXPECT_EQ(report.problems.back(), fmt::format("and {} more", 3 * report.chunks - 40));
+}
+
 TEST_F(PackedSession, WithAnUnknownPackingIsRefusedByOneSentence) {
     write();
     test::forge(path_, "UPDATE entries SET body=replace(body, 'steps+zstd', 'steps+brotli')");
