@@ -39,7 +39,7 @@ struct ExportedStream {
     double rate_hz = kNaN;
     std::uint64_t gaps = 0, repeated = 0, dropped = 0;
     double maxTimeError_s = 0;
-    std::vector<ExportedChannel> channels;
+    std::vector<ExportedChannel> channels = {};
 };
 struct ExportedFile {
     std::string path;  ///< relative to a folder, else the file's name

@@ -25,7 +25,7 @@ namespace tacto {
 class Hdf5Id {
 public:
     Hdf5Id() = default;
-    Hdf5Id(hid_t id, herr_t (*close)(hid_t)) noexcept : id_(id), close_(close) {}
+    Hdf5Id(hid_t id, herr_t (*closer)(hid_t)) noexcept : id_(id), close_(closer) {}
     Hdf5Id(Hdf5Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
     Hdf5Id& operator=(Hdf5Id&& other) noexcept {
         std::swap(id_, other.id_);
