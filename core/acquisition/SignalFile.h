@@ -19,17 +19,17 @@
 namespace tacto {
 
 struct SignalChannel {
-    std::string label;       ///< may be empty or repeated
-    std::string unit;        ///< as written
+    std::string label = {};  ///< may be empty or repeated
+    std::string unit = {};   ///< as written
     std::size_t number = 1;  ///< from 1: in its stream (XDF), or among the file's signals (EDF, BDF)
 };
 
 /// Channels with common stamps: a stream of an XDF file, or all signals of one rate in an EDF or BDF file.
 struct SignalStream {
-    std::string name;                          ///< empty in EDF and BDF
-    std::string type;                          ///< XDF: the content type, such as "EEG"
-    std::optional<std::uint32_t> id;           ///< XDF: the stream's number in its file
-    std::string serial;                        ///< of the device, where the file says it
+    std::string name = {};                     ///< empty in EDF and BDF
+    std::string type = {};                     ///< XDF: the content type, such as "EEG"
+    std::optional<std::uint32_t> id = {};      ///< XDF: the stream's number in its file
+    std::string serial = {};                   ///< of the device, where the file says it
     double rate_hz = 0;                        ///< as declared; 0 where the file declares none
     bool texts = false;                        ///< holds texts, which are counted and not kept
     std::size_t count = 0;                     ///< number of samples, of texts too

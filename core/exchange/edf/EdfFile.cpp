@@ -231,7 +231,7 @@ public:
     }
 
 private:
-    std::unique_ptr<edf_hdr_struct> header_;  // 140 KB
+    std::unique_ptr<edf_hdr_struct> header_;  // 140 KB to 1 MB
     bool open_ = false;
 };
 
