@@ -31,8 +31,9 @@ Result<VibrationReports> MassagerTemplate::reports(std::size_t length) const {
     made.stop = made.start;
     if (stop) {
         if (stop->size() > length) {
-            return fail(ErrorCode::InvalidArgument, "the stop report has {} bytes, more than the report's {}",
-                        stop->size(), length);
+            return fail(ErrorCode::InvalidArgument,
+                        "the stop report has {} bytes; at most {} are accepted, the length of a report", stop->size(),
+                        length);
         }
         std::ranges::fill(made.stop, std::uint8_t{0});
         std::ranges::copy(*stop, made.stop.begin());

@@ -218,7 +218,7 @@ TEST(CsvMakers, HantekWithTimes) {
                "#timebase=4000000000(ps)\n,#voltbase=1000000(uV)\n#size=3\n2.00E-04,4.680\n4.00E-04,4.600\n"
                "6.00E-04,0.040\n");
     EXPECT_THAT(saidOf("#timebase=4(ns)\n,#threshold=1500(mv)\n#size=2\n0,5\n1,6\n"),
-                HasSubstr("words of a logic analyzer; an analog channel was expected"));
+                HasSubstr("this channel is a logic analyzer's; an analog channel was expected"));
 }
 
 // Electronicayciencia, 2 February 2020: the channels follow each other, separated only by comments.

@@ -131,7 +131,7 @@ TEST(ProtocolDeclaration, RefusesParametersThatContradictThemselves) {
               "/lab/probe.js:2: the default of load is 5, a number of 10 or more is expected");
     EXPECT_EQ(parameterError("{ value: 5, min: 10, max: 1 }"),
               "/lab/probe.js:2: parameter load: min 10 is above max 1");
-    EXPECT_EQ(parameterError("{ min: 1 }"), "/lab/probe.js:2: parameter load has no value, its default");
+    EXPECT_EQ(parameterError("{ min: 1 }"), "/lab/probe.js:2: parameter load has no default: \"value\" is missing");
     EXPECT_EQ(parameterError("{ value: 1.5, type: 'integer' }"),
               "/lab/probe.js:2: the default of load is 1.5, a whole number is expected");
     EXPECT_NE(parameterError("{ value: 1, type: 'float' }"), "");

@@ -113,7 +113,7 @@ QWidget* SessionsWorkspace::buildListActions() {
              tr("Its streams, trials, trains, events and captures, for other programs."), [this] { askExport(); })
         ->setObjectName("exportSession");
     row->addStretch();
-    auto* hint = new ElidedLabel(tr("Ctrl+click: a second · Ctrl+F: search"), holder);
+    auto* hint = new ElidedLabel(tr("Ctrl+click: choose a second session · Ctrl+F: search"), holder);
     hint->setToolTip(hint->text());
     hint->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     setTone(*hint, Tone::Quiet);

@@ -246,7 +246,7 @@ Result<ProtocolParameter> parseParameter(const std::string& name, const Json& gi
         return fail(ErrorCode::InvalidArgument, "{}: zero says what 0 stands for, and 0 is not accepted", where);
     }
     const auto value = given.find("value");
-    if (value == given.end()) return fail(ErrorCode::InvalidArgument, "{} has no value, its default", where);
+    if (value == given.end()) return fail(ErrorCode::InvalidArgument, "{} has no default: \"value\" is missing", where);
     if (value->is_string()) {
         const auto fits = noLongerThan(where, "value", value->get_ref<const std::string&>(), kMaxDeclaredText);
         if (!fits) return failure(fits);

@@ -5,9 +5,9 @@
 // whichever is more, but by at most 1 mA. One of every five later presentations, chosen from the seed, is empty. If an
 // empty one was felt, the last level is presented again and its new answer replaces the previous one; a second felt
 // empty presentation marks the series. "Too strong" ends the series after any presentation and keeps all later levels
-// below it. Said about an empty presentation, it applies to the last level of the series and marks the series.
-// "Too strong" is doubtful at half or less of what was tolerated in this or an earlier series, and while nothing was
-// felt in the series: the caller asks once whether it was meant. A slip is taken back, and the same level comes again.
+// below it. After an empty presentation, the word applies to the last level, and the series is marked.
+// Perhaps the participant did not mean it: at half or less of a level that was tolerated before, or while nothing was
+// felt in the series, the caller asks once. If they did not, the answer is taken back and the level is presented again.
 //
 // The same settings, seed and answers give the same presentations, so a recorded series can be replayed.
 #pragma once

@@ -36,8 +36,8 @@ Result<void> checkHorizontalUnit(const CsvHead& head, std::string_view file) {
     const auto spelled = wordCalled(head, "Horizontal Units");
     const auto unit = spelledUnit(spelled);
     if (spelled.empty() || (unit && unit->unit == "s" && unit->factor == 1)) return {};
-    return fail(ErrorCode::Unsupported, "{}:{}: the horizontal unit is '{}'; s, of a record over time, was expected",
-                file, lineCalled(head, "Horizontal Units")->number, spelled);
+    return fail(ErrorCode::Unsupported, "{}:{}: the horizontal unit is '{}'; seconds (s) were expected", file,
+                lineCalled(head, "Horizontal Units")->number, spelled);
 }
 
 bool keysStandBesideRows(const CsvHead& head, std::size_t firstLine) {

@@ -34,9 +34,10 @@ Result<CsvDraft> hantek(const CsvHead& head, std::string_view file) {
     }
     if (hasTimes(head)) {
         if (baseLine(head)->fields[1].starts_with("#threshold")) {
-            return fail(ErrorCode::Unsupported,
-                        "{}:{}: words of a logic analyzer; an analog channel was expected, which states #voltbase",
-                        file, baseLine(head)->number);
+            return fail(
+                ErrorCode::Unsupported,
+                "{}:{}: this channel is a logic analyzer's; an analog channel was expected (its head states #voltbase)",
+                file, baseLine(head)->number);
         }
         draft.addOther("time");
         for (std::size_t c = 1; c < columns; ++c) draft.addChannel(fmt::format("CH{}", c), "V");

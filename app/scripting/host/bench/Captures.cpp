@@ -30,7 +30,7 @@ ScopeSettings scopeSettings(Bench& bench, const CaptureOptions& options) {
 /// Takes one record with `trains` trains at the present interval. Between two records the interval is known only as
 /// well as the records' time stamps (science.md section 12).
 Result<std::vector<Capture>> captureInOne(Bench& bench, int trains, ScopeSettings settings) {
-    constexpr double kBefore = 0.05, kSpare = 0.1;  // shares of the record and of an interval
+    constexpr double kBefore = 0.05, kSpare = 0.1;  // shares: kBefore of the record, kSpare of an interval
     constexpr double kMaxSamples = 5e5, kMinRate_hz = 1e5;
     const double interval_s = bench.telemetry().interval_s;
     if (!(interval_s > 0) || !std::isfinite(interval_s))
