@@ -68,7 +68,12 @@ QSize ToolRow::wishOf(const QLayoutItem& item) const {
     return part->sizeHint().expandedTo(part->minimumSize()).boundedTo(part->maximumSize());
 }
 
-void ToolRow::addItem(QLayoutItem* item) { items_.emplace_back(item); }
+/// "More" stands behind all parts, also for the tab key.
+void ToolRow::addItem(QLayoutItem* item) {
+    items_.emplace_back(item);
+    if (auto* part = item->widget(); part != nullptr) QWidget::setTabOrder(part, more_);
+    more_->raise();
+}
 
 QLayoutItem* ToolRow::itemAt(int index) const {
     return index >= 0 && index < count() ? items_[static_cast<std::size_t>(index)].get() : nullptr;

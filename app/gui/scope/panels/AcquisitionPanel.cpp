@@ -47,6 +47,7 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
       source_(combo(tr("Trigger source"), tr("The channel that is watched."))),
       level_(new QuantitySpin("V", kLowestLevel, kMaxVolts, this)),
       fields_(new FieldForm(this)),
+      find_(buildFind()),  // made in the order in which the tab key visits them
       preTrigger_(new QSpinBox(this)),
       length_(combo(tr("Record length"), tr("The time that one capture covers. To measure an interval it must hold two "
                                             "trains."))),
@@ -90,18 +91,7 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
     form->addRow(tr("Level"), level_);
     fields_->setMinimumWidth(1);  // another kind of trigger must not widen the column and shrink the screen
     form->addRow(fields_);
-    auto* find = new QWidget(this);
-    auto* steps = rowIn(*find);
-    for (const auto& [text, name, tip, step] :
-         {std::tuple{tr("◂ Previous"), "previousMatch", tr("Shift+F3: the match of this trigger before this one."), -1},
-          std::tuple{tr("Next ▸"), "nextMatch",
-                     tr("F3: the next match of this trigger in the record that is shown, also in an opened file."),
-                     1}}) {
-        auto* button = pageButton(text, name, tip, find);
-        connect(button, &QPushButton::clicked, this, [this, step = step] { emit matchWanted(step); });
-        steps->addWidget(button);
-    }
-    form->addRow(tr("Find"), find);
+    form->addRow(tr("Find"), find_);
     form->addRow(tr("Pre-trigger"), preTrigger_);
     form->addRow(tr("Record"), length_);
     form->addRow(tr("Rate"), rate_);
@@ -133,6 +123,21 @@ AcquisitionPanel::AcquisitionPanel(QWidget* parent)
     connect(level_, &QDoubleSpinBox::valueChanged, this, take);
     connect(preTrigger_, &QSpinBox::valueChanged, this, &AcquisitionPanel::changed);
     say();
+}
+
+QWidget* AcquisitionPanel::buildFind() {
+    auto* find = new QWidget(this);
+    auto* steps = rowIn(*find);
+    for (const auto& [text, name, tip, step] :
+         {std::tuple{tr("◂ Previous"), "previousMatch", tr("Shift+F3: the match of this trigger before this one."), -1},
+          std::tuple{tr("Next ▸"), "nextMatch",
+                     tr("F3: the next match of this trigger in the record that is shown, also in an opened file."),
+                     1}}) {
+        auto* button = pageButton(text, name, tip, find);
+        connect(button, &QPushButton::clicked, this, [this, step = step] { emit matchWanted(step); });
+        steps->addWidget(button);
+    }
+    return find;
 }
 
 QComboBox* AcquisitionPanel::combo(const QString& name, const QString& tip) {

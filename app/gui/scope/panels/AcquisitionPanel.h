@@ -51,6 +51,7 @@ signals:
     void matchWanted(int step);
 
 private:
+    [[nodiscard]] QWidget* buildFind();
     QComboBox* combo(const QString& name, const QString& tip);
     void fillRates();
     void sourceChanged();
@@ -75,6 +76,7 @@ private:
     QComboBox* source_;
     QuantitySpin* level_;
     FieldForm* fields_;
+    QWidget* find_;
     QFormLayout* form_ = nullptr;
     QSpinBox* preTrigger_;
     QComboBox* length_;
