@@ -217,21 +217,21 @@ QWidget* StudyList::buildFoot() {
         openDialog(exportDialog(
             study_, [this](const BidsWith& with) { askForExport(with); }, this));
     });
-    const auto noteBy = [this](QDialog* asks) {
-        connect(asks, &QDialog::accepted, this,
-                [this, what = asks->windowTitle()] { say(tr("Noted: %1.").arg(what), false); });
-        openDialog(asks);
+    const auto noted = [this](QDialog* asks) {
+        const auto what = asks->windowTitle();
+        connect(asks, &QDialog::accepted, this, [this, what] { say(tr("Noted: %1.").arg(what), false); });
+        return asks;
     };
     addAction(*note, tr("An amendment of the committee…"), "amendStudy",
-              [=, this] { noteBy(amendDialog(study_, this)); });
+              [=, this] { openDialog(noted(amendDialog(study_, this))); });
     addAction(*note, tr("An adverse event…"), "noteAdverseEvent",
-              [=, this] { noteBy(adverseEventDialog(study_, code_, this)); });
+              [=, this] { openDialog(noted(adverseEventDialog(study_, code_, this))); });
     addAction(*note, tr("The day after a session…"), "noteNextDay",
-              [=, this] { noteBy(nextDayDialog(study_, code_, this)); });
+              [=, this] { openDialog(noted(nextDayDialog(study_, code_, this))); });
     for (const auto& kind : studyLogKinds()) {
         const auto title = QCoreApplication::translate("StudyLog", kind.title);
         addAction(*note, title + "…", qPrintable("note-" + QString(kind.key)),
-                  [=, this, &kind] { noteBy(noteDialog(study_, kind, this)); });
+                  [=, this, &kind] { openDialog(noted(noteDialog(study_, kind, this))); });
     }
     release_ = addAction(*note, tr("Release after a serious event…"), "releaseStudy",
                          [this] { openDialog(releaseDialog(study_, this)); });
