@@ -24,8 +24,8 @@ std::size_t columnOf(const SessionStream& stream, std::string_view name) {
     return stream.columns.size();
 }
 
-constexpr std::size_t kMostTrains = 10'000;
-constexpr std::uint64_t kMostFrameValues = 1'000'000;
+constexpr std::size_t kMaxTrains = 10'000;
+constexpr std::uint64_t kMaxFrameValues = 1'000'000;
 
 bool byCurrent(const SessionRow& train) { return !valueOr(train.body, "amplitude_ma").is_null(); }
 double amplitudeOf(const SessionRow& train) {
@@ -41,7 +41,7 @@ public:
         const double amplitude = amplitudeOf(train);
         auto& all = course_.amplitude;
         if (count_++ % course_.perTrain == 0) {
-            if (all.size() == kMostTrains) halve();
+            if (all.size() == kMaxTrains) halve();
             course_.train_s.push_back(toSeconds(train.at));
             all.push_back(amplitude);
         } else if (!(amplitude <= all.back())) {
@@ -73,7 +73,7 @@ Result<void> readFrames(const SessionReader& reader, ReadSession& session) {
         const auto columns = info.stream.columns.size();
         const auto r = columnOf(info.stream, "R"), p = columnOf(info.stream, "P");
         if (r == columns || p == columns) continue;
-        auto read = reader.outline(info.id, kMostFrameValues);
+        auto read = reader.outline(info.id, kMaxFrameValues);
         if (!read) return failure(read);
         const auto& frames = read->samples;
         course.oneIn = read->oneIn;

@@ -25,7 +25,7 @@ namespace {
 constexpr int kPanesFrom = 820;  // width in pixels from which both panes are side by side
 constexpr int kListMargin = 16, kAroundActions = 12;
 
-constexpr std::uint64_t kMostValuesDrawn = 4'000'000;
+constexpr std::uint64_t kMaxValuesDrawn = 4'000'000;
 
 bool holdsTouch(const ReadSession& session) {
     return std::ranges::any_of(session.streams, [](const auto& info) {
@@ -236,7 +236,7 @@ void SessionsWorkspace::drawStream(int stream) {
     reading_.take(
         [path = read_->path, stream](const WorkPort&) {
             const auto reader = SessionReader::open(path);
-            return reader ? reader->outline(stream, kMostValuesDrawn) : failure(reader);
+            return reader ? reader->outline(stream, kMaxValuesDrawn) : failure(reader);
         },
         [this, info = *info](const Result<StreamOutline>& read) {
             if (!read) return say(qtext(read.error().message));
