@@ -134,7 +134,7 @@ QWidget* AcquisitionPanel::buildFind() {
                      tr("F3: the next match of this trigger in the record that is shown, also in an opened file."),
                      1}}) {
         auto* button = pageButton(text, name, tip, find);
-        connect(button, &QPushButton::clicked, this, [this, step = step] { emit matchWanted(step); });
+        connect(button, &QPushButton::clicked, this, [this, by = step] { emit matchWanted(by); });
         steps->addWidget(button);
     }
     return find;
