@@ -30,7 +30,7 @@ namespace tacto {
 /// The name of this packing in the description of a chunk.
 inline constexpr const char* kPackedAsSteps = "steps+zstd";
 
-/// Larger chunks are stored as they are. So whoever unpacks a damaged chunk needs at most 17 bytes for each of these.
+/// Larger chunks are stored as they are. So whoever unpacks a damaged chunk needs at most 150 bytes for each of these.
 inline constexpr std::size_t kMaxPackedNumbers = std::size_t{1} << 20;
 
 /// Packs the chunks of one stream; a column's step is looked for once, and again if it no longer fits.
