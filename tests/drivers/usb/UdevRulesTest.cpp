@@ -23,7 +23,8 @@ std::filesystem::path rules() { return sourceDir() / "resources/udev/70-tactosco
 
 /// Returns the devices in lines that begin with `key`, as "0483:5740", in lower case as in sysfs.
 std::set<std::string> permitted(const std::string& key, const std::string& also = "") {
-    const std::regex line("^" + key + "\\{idVendor\\}==\"([0-9a-f]{4})\", " + key +
+    const std::regex line((key == "ATTR" ? "^SUBSYSTEM==\"usb\", " : "^") + key +
+                          "\\{idVendor\\}==\"([0-9a-f]{4})\", " + key +
                           "\\{idProduct\\}==\"([0-9a-f]{4})\", TAG\\+=\"uaccess\"" + also);
     std::set<std::string> found;
     std::istringstream text(textOf(rules()));
