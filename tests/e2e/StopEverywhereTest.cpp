@@ -440,9 +440,24 @@ protected:
             {"Export",
              [this] {
                  choose(1);
-                 press(window, "Export CSV…");
+                 press(window, "Export…");
              },
              "SessionsWorkspace"},
+            {"Place of an export",
+             [this] {
+                 choose(1);
+                 press(window, "Export…");
+                 press(*newest(), "Choose…");
+             },
+             "ExportDialog"},
+            {"What a certificate states",
+             [this] {
+                 page(1);
+                 window.findChild<gui::TabbedPage*>("calibratePages")->setCurrentIndex(0);
+                 press(window, "Settings");
+                 press(window, "Certificate…");
+             },
+             "CertificatePart"},
             {"Report of a session",
              [this] {
                  choose(1);

@@ -5,6 +5,7 @@
 #include <QApplication>
 #include <QComboBox>
 #include <QKeyEvent>
+#include <QMetaMethod>
 #include <QPushButton>
 #include <QScrollBar>
 #include <QTabBar>
@@ -88,6 +89,19 @@ bool WheelGuard::isSetting(const QWidget& widget) {
            qobject_cast<const QComboBox*>(&widget) != nullptr || qobject_cast<const QTabBar*>(&widget) != nullptr;
 }
 
+namespace {
+
+/// True if the plot itself or somebody who listens to it uses the wheel.
+bool zoomsByWheel(const QCustomPlot& plot) {
+    struct Open : QCustomPlot {
+        using QCustomPlot::isSignalConnected;
+    };
+    return plot.interactions().testFlag(QCP::iRangeZoom) ||
+           (plot.*&Open::isSignalConnected)(QMetaMethod::fromSignal(&QCustomPlot::mouseWheel));
+}
+
+}  // namespace
+
 bool WheelGuard::eventFilter(QObject* watched, QEvent* event) {
     if (event->type() != QEvent::Wheel) return false;
     if (watched->isWindowType()) {
@@ -103,7 +117,7 @@ bool WheelGuard::eventFilter(QObject* watched, QEvent* event) {
     auto* widget = static_cast<QWidget*>(watched);
     // A plot takes every wheel event, also those that zoom nothing, and lets none through.
     const auto* plot = qobject_cast<const QCustomPlot*>(widget);
-    const bool still = plot != nullptr && !plot->interactions().testFlag(QCP::iRangeZoom);
+    const bool still = plot != nullptr && !zoomsByWheel(*plot);
     if (still) widget->setAttribute(Qt::WA_NoMousePropagation, false);
     if (!still && (!isSetting(*widget) || widget->hasFocus())) return false;
     event->ignore();  // so that the widget around it gets the event

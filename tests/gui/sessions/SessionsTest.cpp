@@ -180,7 +180,7 @@ TEST_F(Recorded, IsExportedByOneDialogThatSaysWhatBecomesOfIt) {
     EXPECT_FALSE(folderButton->isVisible());
     dialog->findChild<gui::FieldForm*>()->set("format", "hdf5");
     place->setText(QString::fromStdString((folder.path() / "out.h5").string()));
-    EXPECT_EQ(faultsOf(*dialog), "");
+    EXPECT_IN_TIME(comesTrue([&] { return faultsOf(*dialog).empty(); })) << faultsOf(*dialog);
     shot(*dialog, "export-dialog");
     click(*begin);
     const auto* says = dialog->findChild<QLabel*>("exportSays");

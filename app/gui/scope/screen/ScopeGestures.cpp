@@ -32,6 +32,7 @@ Qt::CursorShape shapeFor(Grip grip, bool held) {
 
 ScopeGestures::ScopeGestures(ScopeModel& model, ScopeScreen& screen) : model_(model), screen_(screen) {
     screen_.installEventFilter(this);
+    connect(&screen_, &QCustomPlot::mouseWheel, this, [this](const QWheelEvent* event) { turn(*event); });
 }
 
 bool ScopeGestures::eventFilter(QObject* watched, QEvent* event) {
@@ -50,10 +51,6 @@ bool ScopeGestures::eventFilter(QObject* watched, QEvent* event) {
             if (static_cast<QMouseEvent*>(event)->button() != Qt::LeftButton) return true;
             drag_ = Drag::None;
             model_.fit();
-            return true;
-        case QEvent::Wheel:
-            event->accept();
-            turn(*static_cast<QWheelEvent*>(event));
             return true;
         case QEvent::KeyPress:
             return keyPressed(*static_cast<QKeyEvent*>(event));
