@@ -63,10 +63,8 @@ PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent)
     connectSession();
     connectResult();
     connect(start_, &SessionStartPage::beginWanted, this, &PilotWorkspace::beginOfStudy);
-    connect(start_, &SessionStartPage::backWanted, this, [this] {
-        showPage(kHome);
-        keepExclusions();
-    });
+    for (const auto leaves : {&SessionStartPage::backWanted, &SessionStartPage::endDayWanted})
+        connect(start_, leaves, this, &PilotWorkspace::leaveStart);
     showPage(kHome);
     afterLookChange(*this, [this] { showBeside(Page(pages_->currentIndex())); });
     onEvent(*this, QEvent::Resize, [this] { showBeside(Page(pages_->currentIndex())); });
@@ -209,21 +207,38 @@ void PilotWorkspace::prepareStart(const QString& code) {
     const auto who = study->find(code.toStdString());
     if (!who) return studies_->list().say(sentence(who.error()));
     start_->prepare(*study, *who);
+    lossSaid_ = false;
     showPage(kStart);
 }
 
-void PilotWorkspace::keepExclusions() {
-    auto* study = study_.study();
+QString PilotWorkspace::keepExclusions() {
     const auto left = start_->start();
-    if (study == nullptr || std::ranges::none_of(left.exclusions, &ExclusionAnswer::yes)) return;
+    if (std::ranges::none_of(left.exclusions, &ExclusionAnswer::yes)) return {};
+    auto* study = study_.study();
+    if (study == nullptr) return tr("The yes is not kept: the study is being opened again. Try once more in a moment.");
     SessionRequest answered;
     answered.code = left.participant;
     answered.exclusions = left.exclusions;
-    const auto noted = study->noteExclusions(answered);
+    if (const auto noted = study->noteExclusions(answered); !noted)
+        return tr("The yes is not kept: %1").arg(sentence(noted.error()));
     study_.noteChange();
-    studies_->list().say(noted ? tr("%1 answered a question of the checklist with yes: there is no session today.")
-                                     .arg(qtext(left.participant))
-                               : sentence(noted.error()));
+    studies_->list().say(
+        tr("%1 answered a question of the checklist with yes, which the study keeps: there is no session today.")
+            .arg(qtext(left.participant)));
+    return {};
+}
+
+bool PilotWorkspace::leaveStart() {
+    const auto why = keepExclusions();
+    start_->say(why);
+    if (why.isEmpty()) showPage(kHome);
+    return why.isEmpty();
+}
+
+bool PilotWorkspace::mayClose() {
+    if (pages_->currentIndex() != kStart || leaveStart() || std::exchange(lossSaid_, true)) return true;
+    emit attentionWanted();
+    return false;
 }
 
 void PilotWorkspace::offerToGoOn() {

@@ -31,6 +31,9 @@ public:
     void setButtonDevices(const std::shared_ptr<const ButtonDevices>& devices);
     void refresh(const Telemetry& telemetry) { session_->refresh(telemetry); }
     [[nodiscard]] bool running() const { return session_->running(); }
+    /// Lets the study keep a yes of the checklist before the program ends. Returns false once, and says why, if it
+    /// cannot.
+    [[nodiscard]] bool mayClose();
     /// True if conditions, levels and trains are now hidden from the operator in the whole window.
     [[nodiscard]] bool blind() const { return running() && session_->start().blind; }
     /// Returns the safety bar's words for a blind session: "Participant’s STOP: not pressed", and further facts if any.
@@ -58,8 +61,10 @@ private:
     void showPage(Page page);
     void showBeside(Page page);
     void prepareStart(const QString& code);
-    /// Notes a "yes" of the checklist that the operator has left, so that it stays for the day.
-    void keepExclusions();
+    /// Lets the study keep a yes of the checklist for the day. Returns why it cannot; empty if it did or there is none.
+    [[nodiscard]] QString keepExclusions();
+    /// Leaves the start page once a yes of its checklist is kept; otherwise stays and says why.
+    bool leaveStart();
     void showRecorded(const RunResult& result, bool ofStudy);
     /// Offers to go on with the session that has just ended, if it was interrupted and can go on.
     void offerToGoOn();
@@ -68,12 +73,13 @@ private:
     void beginOfStudy();
     void sayWhereItBegan(const QString& why);
 
-    OpenStudy study_;
+    OpenStudy study_{this};
     OpenStudy rehearsed_;  ///< a rehearsal whose result is read
     QString wanted_;       ///< the session of that result
     QString recorded_;     ///< the record of the result shown, in which a signature is noted
     ReportMaker reports_;  ///< of rehearsals; a study's page draws its own
     bool plotOnly_ = false;
+    bool lossSaid_ = false;  ///< it was said that a yes of the checklist could not be kept
     bool ofStudy_ = false;   ///< true if the running session, or the session of the result shown, belongs to a study
     bool reopened_ = false;  ///< true if the result shown was read from its record
     SessionPath* path_;

@@ -3,6 +3,7 @@
 #include <QRadioButton>
 #include <QRandomGenerator>
 #include <QScrollBar>
+#include <QSignalBlocker>
 #include <algorithm>
 
 #include "app/gui/pilot/DeviceRows.h"
@@ -55,11 +56,16 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     auto* foot = addPageFoot(*whole, this);
     begin_->setIcon(icon("run", Ink::Primary));
     makePrimary(*begin_);
+    endDay_ =
+        pageButton(tr("End the day: keep the yes"), "endDay",
+                   tr("The study keeps the answer, sealed: no session with this participant begins today."), this);
+    makePrimary(*endDay_);
     auto* back = pageButton(tr("Back to the study"), "backToStudy", {}, this);
     whyNot_ = makeLabel({}, {.name = "whyNotBegin", .tone = Tone::Quiet, .wraps = true, .plain = true}, this);
-    for (auto* button : {begin_, back}) foot->addWidget(button);
+    for (auto* button : {begin_, endDay_, back}) foot->addWidget(button);
     foot->addWidget(whyNot_, 1);
     connect(begin_, &QPushButton::clicked, this, &SessionStartPage::beginWanted);
+    connect(endDay_, &QPushButton::clicked, this, &SessionStartPage::endDayWanted);
     connect(back, &QPushButton::clicked, this, &SessionStartPage::backWanted);
     connect(offer_, &UnfinishedOffer::changed, this, &SessionStartPage::judge);
 }
@@ -158,14 +164,18 @@ void SessionStartPage::judge() {
     const bool refused = sayRefused(*trouble_, *form_);
     const bool yes = !virtual_ && std::ranges::any_of(checklist_->answers(), &ExclusionAnswer::yes);
     const auto why =
-        yes       ? tr("A question was answered with yes: there is no session today. The study keeps the answer.")
-        : !chosen ? tr("First choose what happens to the interrupted session.")
+        yes ? tr("A question was answered with yes: there is no session today. End the day, and the study keeps it.") +
+                  (checklist_->changedFromYes() ? ' ' + tr("If the yes was a slip, tick so below the questions.")
+                                                : QString())
+        : !chosen          ? tr("First choose what happens to the interrupted session.")
         : !lacks.isEmpty() ? lacks
         : !whole           ? tr("%1 of %2 questions of the checklist are answered; each is needed.")
                        .arg(open)
                        .arg(checklist_->items().size())
                  : QString();
     begin_->setEnabled(why.isEmpty() && !refused);
+    begin_->setVisible(!yes);
+    endDay_->setVisible(yes);
     whyNot_->setText(why);
     begin_->setToolTip(
         !why.isEmpty() ? why : tr("Every condition of the study is looked at first. Nothing is delivered before."));
@@ -174,8 +184,14 @@ void SessionStartPage::judge() {
 
 void SessionStartPage::say(const QString& what) { trouble_->say(what); }
 
-ExclusionChecklist::ExclusionChecklist(QWidget* parent) : QWidget(parent), grid_(layoutIn<QGridLayout>(*this, -1, {})) {
+ExclusionChecklist::ExclusionChecklist(QWidget* parent)
+    : QWidget(parent), grid_(new QGridLayout), slip_(new QCheckBox(tr("The yes was a slip: the answer is no"), this)) {
     nameWidget(*this, "exclusionChecklist", tr("Exclusion checklist"));
+    slip_->setObjectName("yesWasASlip");
+    connect(slip_, &QCheckBox::toggled, this, &ExclusionChecklist::changed);
+    auto* column = columnIn(*this, 8);
+    column->addLayout(grid_);
+    column->addWidget(slip_);
     grid_->setHorizontalSpacing(scaledPx(16));
     grid_->setVerticalSpacing(scaledPx(8));
     grid_->setColumnStretch(0, 1);
@@ -186,7 +202,7 @@ void ExclusionChecklist::ask(const std::vector<ExclusionItem>& items) {
     // The rows of questions that stay keep their place in the tab order.
     const auto [end, ignored] = std::ranges::mismatch(items_, items);
     for (auto stays = std::size_t(end - items_.begin()); groups_.size() > stays;
-         groups_.pop_back(), items_.pop_back()) {
+         groups_.pop_back(), items_.pop_back(), saidYes_.pop_back()) {
         delete grid_->itemAtPosition(int(groups_.size()) - 1, 0)->widget();
         qDeleteAll(groups_.back()->buttons());
         delete groups_.back();
@@ -197,6 +213,9 @@ void ExclusionChecklist::ask(const std::vector<ExclusionItem>& items) {
         group->setExclusive(true);
     }
     while (items_.size() < items.size()) addRow(items[items_.size()]);
+    saidYes_.assign(items_.size(), false);
+    slip_->setChecked(false);
+    slip_->hide();
 }
 
 void ExclusionChecklist::addRow(const ExclusionItem& item) {
@@ -213,15 +232,36 @@ void ExclusionChecklist::addRow(const ExclusionItem& item) {
         if (before != nullptr) setTabOrder(before, choice);
         before = choice;
     }
-    connect(group, &QButtonGroup::idToggled, this, &ExclusionChecklist::changed);
+    setTabOrder(before, slip_);
+    connect(group, &QButtonGroup::idToggled, this, [this, row](int answer, bool on) {
+        if (on) noteAnswer(std::size_t(row), answer == kYes);
+        emit changed();
+    });
     groups_.push_back(group);
     items_.push_back(item);
+    saidYes_.push_back(false);
+}
+
+void ExclusionChecklist::noteAnswer(std::size_t row, bool yes) {
+    if (yes) {
+        saidYes_[row] = true;
+        const QSignalBlocker once(slip_);
+        slip_->setChecked(false);  // a tick was about an earlier yes
+    }
+    slip_->setVisible(changedFromYes());
+}
+
+bool ExclusionChecklist::changedFromYes() const {
+    for (std::size_t i = 0; i < groups_.size(); ++i)
+        if (saidYes_[i] && groups_[i]->checkedId() == kNo) return true;
+    return false;
 }
 
 std::vector<ExclusionAnswer> ExclusionChecklist::answers() const {
     std::vector<ExclusionAnswer> all;
     for (std::size_t i = 0; i < groups_.size(); ++i) {
-        if (const int given = groups_[i]->checkedId(); given >= 0) all.push_back({items_[i].key, given == kYes});
+        if (const int given = groups_[i]->checkedId(); given >= 0)
+            all.push_back({items_[i].key, given == kYes || (saidYes_[i] && !slip_->isChecked())});
     }
     return all;
 }

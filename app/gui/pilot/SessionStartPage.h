@@ -4,6 +4,7 @@
 
 #include <QBoxLayout>
 #include <QButtonGroup>
+#include <QCheckBox>
 #include <QGridLayout>
 #include <QLabel>
 #include <QPushButton>
@@ -44,6 +45,7 @@ public:
 
 signals:
     void beginWanted();
+    void endDayWanted();  ///< a question was answered with yes, which the study is to keep
     void backWanted();
 
 private:
@@ -69,10 +71,12 @@ private:
     TroubleLine* trouble_;
     ScrollingPage* page_ = nullptr;
     QPushButton* begin_ = nullptr;
-    QLabel* whyNot_ = nullptr;  ///< why no session can begin, beside the button
+    QPushButton* endDay_ = nullptr;  ///< in the place of begin_ after a yes
+    QLabel* whyNot_ = nullptr;       ///< why no session can begin, beside the button
 };
 
-/// The questions of the exclusion checklist, each answered by yes or no. No answer is preselected.
+/// The questions of the exclusion checklist, each answered by yes or no. No answer is preselected. A yes that is
+/// changed to no stays a yes until the operator ticks that it was a slip.
 class ExclusionChecklist final : public QWidget {
     Q_OBJECT
 public:
@@ -83,6 +87,8 @@ public:
     [[nodiscard]] std::vector<ExclusionAnswer> answers() const;
     [[nodiscard]] const std::vector<ExclusionItem>& items() const { return items_; }
     [[nodiscard]] bool whole() const { return answers().size() == groups_.size(); }
+    /// True if a yes was changed to no, whether or not it is ticked as a slip.
+    [[nodiscard]] bool changedFromYes() const;
 
 signals:
     void changed();
@@ -90,9 +96,12 @@ signals:
 private:
     enum Answer { kNo, kYes };
     void addRow(const ExclusionItem& item);
+    void noteAnswer(std::size_t row, bool yes);
     QGridLayout* grid_;
+    QCheckBox* slip_;  ///< shown after a yes was changed to no
     std::vector<ExclusionItem> items_;
     std::vector<QButtonGroup*> groups_;  ///< in the order of items_
+    std::vector<bool> saidYes_;          ///< for each of items_: whether yes was chosen, perhaps not any more
 };
 
 }  // namespace tacto::gui

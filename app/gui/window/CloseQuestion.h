@@ -26,6 +26,7 @@ public:
     /// Returns true if the window may close at once. Otherwise opens a question; its answer closes the window.
     /// `stopped`: closing has stopped a run.
     [[nodiscard]] bool mayClose(bool stopped);
+    [[nodiscard]] bool unasked() const { return unasked_; }  ///< true during closeUnasked()
     /// Closes the window without a question; unsaved text is lost.
     void closeUnasked();
 

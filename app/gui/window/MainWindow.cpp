@@ -562,6 +562,8 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     const bool ran = closing_->runs();
     controller_.stop("the window closes");  // before any question
     if (!closing_->mayClose(ran)) return event->ignore();
+    auto* pilot = workspaces_->pilot();
+    if (pilot != nullptr && !pilot->mayClose() && !closing_->unasked()) return event->ignore();
     QSettings settings;
     settings.setValue("geometry", saveGeometry());
     settings.setValue("state", saveState());

@@ -1,4 +1,5 @@
 // Tests the steps before a session of a study: a checklist without defaults, and an interrupted session.
+#include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
@@ -93,6 +94,43 @@ TEST_F(SessionStart, EveryQuestionIsAnsweredAndNoneBeforehand) {
     page.prepare(*study, who);
     EXPECT_TRUE(checklist->answers().empty()) << "each session asks anew";
     EXPECT_TRUE(page.start().confirmsCode) << "on their own screen";
+}
+
+TEST_F(SessionStart, AYesChangedToNoStaysOneUntilItIsTickedAsASlip) {
+    RecordProperty("hazard", "H12");
+    prepare({});
+    int begins = 0, ends = 0;
+    QObject::connect(&page, &gui::SessionStartPage::beginWanted, &page, [&] { ++begins; });
+    QObject::connect(&page, &gui::SessionStartPage::endDayWanted, &page, [&] { ++ends; });
+    auto* endDay = page.findChild<QPushButton*>("endDay");
+    auto* slip = page.findChild<QCheckBox*>("yesWasASlip");
+    answer("-no");
+    EXPECT_FALSE(endDay->isVisible());
+    EXPECT_FALSE(slip->isVisible()) << "no yes was given";
+    const auto click = [this](const char* name) { page.findChild<QRadioButton*>(name)->click(); };
+    for (int round = 0; round < 2; ++round) {
+        SCOPED_TRACE(round == 0 ? "first" : "again: a tick is about an earlier yes");
+        click("epilepsy-yes");
+        EXPECT_FALSE(begin().isVisible());
+        ASSERT_TRUE(endDay->isVisible() && endDay->isEnabled()) << "whatever else is missing";
+        const auto says = page.findChild<QLabel*>("whyNotBegin")->text().toStdString();
+        EXPECT_THAT(says, testing::Not(HasSubstr("keeps the answer"))) << "it is not kept yet";
+        click("epilepsy-no");
+        EXPECT_FALSE(begin().isEnabled());
+        EXPECT_FALSE(exclusionGate(page.start().exclusions)) << "the yes stands";
+        ASSERT_TRUE(slip->isVisible());
+        if (round == 0) looksRight(page, "session-start-slip", {QSize(1160, 640), QSize(1160, 900)});
+        slip->click();
+        EXPECT_TRUE(begin().isVisible() && begin().isEnabled()) << "corrected deliberately";
+        EXPECT_TRUE(exclusionGate(page.start().exclusions));
+    }
+    click("heart-yes");
+    test::click(*endDay);
+    EXPECT_EQ(ends, 1);
+    EXPECT_EQ(begins, 0);
+    page.prepare(*study, who);
+    EXPECT_FALSE(slip->isVisible());
+    EXPECT_FALSE(endDay->isVisible());
 }
 
 TEST_F(SessionStart, TheLaboratorysOwnQuestionsStandBelowTheOthers) {

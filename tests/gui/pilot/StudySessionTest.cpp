@@ -280,6 +280,40 @@ TEST_F(StudyInTheWindow, AYesStaysThoughTheOperatorGoesBack) {
     EXPECT_THAT(trouble(), HasSubstr("the next session is possible from"));
 }
 
+TEST_F(StudyInTheWindow, AYesIsKeptByTheButtonAndByClosingAndSaysSoOnlyThen) {
+    RecordProperty("hazard", "H12");
+    ASSERT_NO_FATAL_FAILURE(make({}, Modality::Massager));
+    ASSERT_NO_FATAL_FAILURE(openIt());
+    auto& study = *pilot->findChild<gui::OpenStudy*>();
+    const auto yes = [this](const char* item) {
+        ASSERT_NO_FATAL_FAILURE(start());
+        page().findChild<QRadioButton*>(QString(item) + "-yes")->click();
+        page().findChild<QRadioButton*>(QString(item) + "-no")->click();
+    };
+    const auto head = [&] { return study.study() == nullptr ? std::string() : study.study()->ledgerHead(); };
+    ASSERT_NO_FATAL_FAILURE(yes("heart"));
+    shot(window, "study-window-yes");
+    auto before = head();
+    click(*page().findChild<QPushButton*>("endDay"));
+    EXPECT_NE(head(), before) << "the study keeps it";
+    EXPECT_THAT(said("studyTrouble"), HasSubstr("there is no session today"));
+    ASSERT_NO_FATAL_FAILURE(seeList());
+
+    ASSERT_NO_FATAL_FAILURE(yes("epilepsy"));
+    before = head();
+    study.lend();
+    click(*page().findChild<QPushButton*>("endDay"));
+    EXPECT_TRUE(page().isVisible()) << "the answers are not left while the study cannot keep them";
+    EXPECT_THAT(trouble(), HasSubstr("not kept"));
+    window.close();
+    EXPECT_TRUE(window.isVisible());
+    study.takeBack();
+    ASSERT_IN_TIME(comesTrue([&] { return head() == before; }, 20'000));
+    window.close();
+    EXPECT_FALSE(window.isVisible());
+    EXPECT_NE(head(), before) << "closing keeps it";
+}
+
 TEST_F(StudyInTheWindow, APersonConfirmsTheirCodeAndTheSessionRunsOnTheMassagerThatWasChosen) {
     RecordProperty("hazard", "H11");
     ASSERT_NO_FATAL_FAILURE(seatAtMassager());
