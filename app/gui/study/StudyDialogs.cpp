@@ -95,14 +95,13 @@ public:
     /// would refuse it. Called after finish(); `act` must do nothing but change the study before that succeeds.
     void judgeAsTyped() {
         judged_ = true;
+        connect(&study_, &OpenStudy::changed, this, &StudyDialog::judge);
         judge();
     }
     void judge() {
-        QString why;
-        if (auto* study = study_.study(); judged_ && study != nullptr) {
-            why = form_ == nullptr ? QString() : form_->wrong();
-            if (const auto done = why.isEmpty() ? study->would(act_) : Result<void>(); !done)
-                why = sentence(done.error());
+        QString why = judged_ ? wrong() : QString();
+        if (auto* study = study_.study(); judged_ && why.isEmpty() && study != nullptr) {
+            if (const auto done = study->would(act_); !done) why = sentence(done.error());
         }
         trouble_->say(why);
         if (judged_) button_->setEnabled(why.isEmpty());
@@ -114,10 +113,13 @@ public:
     void nameCancel(const QString& word) { cancel_->setText(word); }
 
 private:
+    [[nodiscard]] QString wrong() const { return form_ == nullptr ? QString() : form_->wrong(); }
     void take(const QString& nothing) {
+        if (const auto why = wrong(); !why.isEmpty()) return trouble_->say(why);
         auto* study = study_.study();
         if (study == nullptr) return trouble_->say(tr("The study is not open any more. %1").arg(nothing));
         if (const auto done = act_(*study); !done) return trouble_->say(sentence(done.error()));
+        study_.disconnect(this);  // what is done is not judged again
         study_.noteChange();
         if (!stays_) accept();
     }

@@ -574,6 +574,32 @@ TEST_F(StudyWithASession, TheDayAfterIsNotedByTheWindow) {
     EXPECT_EQ(study.study()->nextDay(session.toStdString()), expected);
 }
 
+TEST_F(StudyWithASession, AScoreThatNobodyChoseIsRefusedWhileTheStudyIsBusyAndAfterwards) {
+    RecordProperty("hazard", "H12");
+    const auto session = withSession(2);
+    choose("noteNextDay");
+    auto* asks = dialog("nextDayDialog");
+    ASSERT_NE(asks, nullptr);
+    auto* act = asks->findChild<QPushButton*>("noteDay");
+    study.lend();
+    pick(*asks, "oedema", "0");
+    EXPECT_FALSE(act->isEnabled());
+    EXPECT_THAT(said(*asks, "nextDayTrouble"), HasSubstr("Redness of the skin"));
+    study.takeBack();
+    ASSERT_IN_TIME(comesTrue([this] { return study.study() != nullptr; }));
+    EXPECT_FALSE(act->isEnabled());
+    act->setEnabled(true);
+    click(*act);
+    EXPECT_FALSE(study.study()->nextDay(session.toStdString())) << "refused in whatever state the button is";
+    study.lend();
+    pick(*asks, "erythema", "3");
+    pick(*asks, "session", "");
+    study.takeBack();
+    ASSERT_IN_TIME(comesTrue([this] { return study.study() != nullptr; }));
+    EXPECT_FALSE(act->isEnabled()) << "judged again once the study is there";
+    asks->close();
+}
+
 TEST_F(StudyWithASession, TheDayAfterIsRefusedOnTheSameDay) {
     RecordProperty("hazard", "H12");
     const auto session = withSession(0);
