@@ -131,7 +131,8 @@ void PilotWorkspace::connectSession() {
         path_->end(outcome.error.has_value() || run->result.verdict() == "stopped" ? SessionEnd::BrokenOff
                    : memberAt(outcome.results, "range.usable") == false            ? SessionEnd::NoRange
                                                                                    : SessionEnd::Complete);
-        result_->show(run->result, session->start().folder, ofStudy_);
+        shown_ = session->start().folder;
+        result_->show(run->result, shown_, ofStudy_);
         if (ofStudy_) return study_.takeBack();  // offerToGoOn() follows
         rehearsal_->look();
         offerToGoOn();
@@ -155,9 +156,9 @@ void PilotWorkspace::connectResult() {
     });
     connect(result_, &PilotResult::reportWanted, this, &PilotWorkspace::makeReport);
     connect(&reports_, &ReportMaker::failed, result_, &PilotResult::say);
-    connect(&reports_, &ReportMaker::done, this, [this](const QString& out) {
+    connect(&reports_, &ReportMaker::done, this, [this](const QString& out, const QString& signs) {
         result_->say(tr("The report is %1.").arg(out));
-        ReportWindow::showReport(*this, out, recorded_);
+        ReportWindow::showReport(*this, out, signs);
     });
 }
 
@@ -168,11 +169,12 @@ void PilotWorkspace::makeReport() {
         if (auto* asks = studies_->findChild<QAction*>("studyReport")) asks->trigger();
         return;
     }
-    const QFileInfo folder(session_->start().folder);
+    const QFileInfo folder(shown_);
     result_->say(tr("The report is being drawn…"));
     reports_.make(ReportMaker::Order{.record = folder.absoluteFilePath(),
                                      .out = folder.absoluteFilePath() + "-report.pdf",
-                                     .assurance = tr("The rehearsal is unchanged.")});
+                                     .assurance = tr("The rehearsal is unchanged."),
+                                     .signs = recorded_});
 }
 
 /// The session's path is shown with a session and with its result; a study's lists get the full width.
@@ -264,7 +266,8 @@ void PilotWorkspace::showRecorded(const RunResult& result, bool ofStudy) {
     ofStudy_ = ofStudy;
     reopened_ = true;
     recorded_ = qtext(result.session.string());
-    result_->show(result, ofStudy ? study_.folder() : rehearsed_.folder(), ofStudy_);
+    shown_ = ofStudy ? study_.folder() : rehearsed_.folder();
+    result_->show(result, shown_, ofStudy_);
     showPage(kOutcome);
 }
 

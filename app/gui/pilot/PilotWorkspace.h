@@ -76,6 +76,7 @@ private:
     OpenStudy study_{this};
     OpenStudy rehearsed_;  ///< a rehearsal whose result is read
     QString wanted_;       ///< the session of that result
+    QString shown_;        ///< the folder of the result shown
     QString recorded_;     ///< the record of the result shown, in which a signature is noted
     ReportMaker reports_;  ///< of rehearsals; a study's page draws its own
     bool plotOnly_ = false;

@@ -54,6 +54,7 @@ void ReportMaker::next() {
     const auto order = queue_.takeFirst();
     out_ = order.out;
     assurance_ = order.assurance;
+    signs_ = order.signs;
     cancelled_ = false;
     start(QStringList{order.record, "--out", order.out} + order.more, order.passphrase.get());
 }
@@ -84,12 +85,12 @@ void ReportMaker::ended(int code, QProcess::ExitStatus status) {
     else if (status == QProcess::CrashExit)
         emit failed(tr("No report: the program that draws it ended unexpectedly. %1").arg(assurance_));
     else if (code == kDamaged && QFileInfo::exists(out)) {
-        emit done(out);
+        emit done(out, signs_);
         emit failed(said);
     } else if (code != 0)
         emit failed(tr("No report: %1. %2").arg(said, assurance_));
     else
-        emit done(out);
+        emit done(out, signs_);
     next();
 }
 

@@ -24,6 +24,7 @@ public:
         QStringList more{};   ///< additional command-line arguments
         std::shared_ptr<const Secret> passphrase{};
         QString assurance{};  ///< added to an error message: "The session is complete."
+        QString signs{};      ///< the record in which a signature of the report is noted; for done()
     };
     void make(const Order& order);
     /// Ends the present report, with failed(), and empties the queue. No half-written file remains.
@@ -31,7 +32,7 @@ public:
     [[nodiscard]] bool busy() const { return process_.state() != QProcess::NotRunning || !queue_.isEmpty(); }
 
 signals:
-    void done(const QString& out);
+    void done(const QString& out, const QString& signs);
     void failed(const QString& why);
 
 private:
@@ -43,6 +44,7 @@ private:
     QString out_;
     int writer_ = 0;  ///< the process that writes out_
     QString assurance_;
+    QString signs_;
     bool cancelled_ = false;  // true if the user cancelled, so that no error is shown
 };
 

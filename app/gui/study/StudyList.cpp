@@ -6,6 +6,7 @@
 #include <QMenu>
 #include <QSignalBlocker>
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 #include "app/gui/runner/ReportView.h"
@@ -19,6 +20,7 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/ToolRow.h"
 #include "core/kinds/ResultKinds.h"
+#include "core/session/SessionReader.h"
 #include "core/study/StudyFiles.h"
 
 namespace tacto::gui {
@@ -109,9 +111,12 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
     });
     connect(&study_, &OpenStudy::exported, this,
             [this](const QString& place) { say(tr("The results lie in %1.").arg(place), false); });
-    connect(&reports_, &ReportMaker::done, this, [this](const QString& out) {
-        say(tr("The report is %1.").arg(out), false);
-        if (out.endsWith(".pdf", Qt::CaseInsensitive)) ReportWindow::showReport(*this, out, signedIn());
+    connect(&reports_, &ReportMaker::done, this, [this](const QString& out, const QString& signs) {
+        const bool shows = out.endsWith(".pdf", Qt::CaseInsensitive);
+        auto words = tr("The report is %1.").arg(out);
+        if (shows && signs.isEmpty()) words += ' ' + tr("It tells of no closed session that could keep a signature.");
+        say(words, false);
+        if (shows) ReportWindow::showReport(*this, out, signs);
     });
     connect(&reports_, &ReportMaker::failed, this, [this](const QString& why) { say(why); });
     refresh();
@@ -334,14 +339,18 @@ void StudyList::judge() {
     if (there && focus_ != nullptr) std::exchange(focus_, nullptr)->setFocus();
 }
 
-/// Returns the record in which a signature of the report is noted: that of the last session that it tells of.
-QString StudyList::signedIn() const {
-    if (study_.study() == nullptr) return {};
-    const auto sessions = study_.study()->sessions();
-    const auto last = std::find_if(sessions.rbegin(), sessions.rend(), [this](const StudySession& each) {
-        return each.state != StudySessionState::Unfinished && (reported_.isEmpty() || qtext(each.code) == reported_);
-    });
-    return last == sessions.rend() ? QString() : qtext(study_.study()->pathOf(last->parts.back().file).string());
+/// Returns the record in which a signature of the report is noted: of the last session that it tells of and whose
+/// record is closed. `code`: the participant whom it is about; empty for the whole study.
+QString StudyList::signedIn(const QString& code) const {
+    const auto* study = study_.study();
+    auto sessions = study == nullptr ? std::vector<StudySession>() : study->sessions();
+    for (const auto& each : sessions | std::views::reverse) {
+        const bool told = code.isEmpty() || qtext(each.code) == code;
+        if (!told || !each.opened || each.state == StudySessionState::Unfinished) continue;
+        const auto path = study->pathOf(each.parts.back().file);
+        if (const auto record = SessionReader::open(path); record && record->closed()) return qtext(path.string());
+    }
+    return {};
 }
 
 void StudyList::makeReport(const QString& title, const QString& name, const QStringList& more) {
@@ -355,14 +364,14 @@ void StudyList::makeReport(const QString& title, const QString& name, const QStr
         if (!noteReport(out, more)) return;
         say(tr("The report is being drawn…"), false);
         const auto one = more.indexOf("--participant");
-        reported_ = one < 0 ? QString() : more[one + 1];
         reports_.make(ReportMaker::Order{.record = study_.folder(),
                                          .out = out,
                                          .more = more + QStringList{"--noted"},
                                          .passphrase = study_.passphrase(),
                                          .assurance = more.contains("committee")
                                                           ? tr("The study is unchanged.")
-                                                          : tr("The study notes that this report was asked for.")});
+                                                          : tr("The study notes that this report was asked for."),
+                                         .signs = signedIn(one < 0 ? QString() : more[one + 1])});
     });
 }
 

@@ -49,7 +49,7 @@ private:
     void judge();
     void choose(const QString& code);
     void askForConsent(const QString& code);
-    [[nodiscard]] QString signedIn() const;
+    [[nodiscard]] QString signedIn(const QString& code) const;
     void makeReport(const QString& title, const QString& name, const QStringList& more);
     void askForExport(const BidsWith& with);
     void changePassphrase();
@@ -57,8 +57,7 @@ private:
 
     OpenStudy& study_;
     ReportMaker reports_;
-    QString code_;      ///< the chosen participant's code
-    QString reported_;  ///< the participant whom the last report is about; empty for the whole study
+    QString code_;  ///< the chosen participant's code
     QWidget* foot_ = nullptr;
     QLabel* title_;
     QLabel* facts_;

@@ -159,6 +159,15 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
     click(*pilot->findChild<QPushButton*>("backFromResult"));
     EXPECT_EQ(pilot->findChild<QComboBox*>("whoAnswers")->currentData(), "virtual");
     EXPECT_FALSE(pilot->findChild<QComboBox*>("whoAnswers")->isEnabled()) << "who began it goes on with it";
+
+    std::filesystem::copy(folder.path() / "study", folder.path() / "other", std::filesystem::copy_options::recursive);
+    pilot->findChild<QLineEdit*>("studyFolder")->setText(QString::fromStdString((folder.path() / "other").string()));
+    pilot->findChild<QLabel*>("pilotHeadline")->clear();
+    click(*last);
+    ASSERT_IN_TIME(comesTrue([this] { return matrixShown(); }, 20'000));
+    click(*pilot->findChild<QPushButton*>("reportOfResult"));
+    EXPECT_IN_TIME(comesTrue([&] { return std::filesystem::exists(folder.path() / "other-report.pdf"); }, 60'000))
+        << "of the rehearsal shown: " << text("pilotNote").toStdString();
 }
 
 TEST_F(RehearsalInTheWindow, TenTimesAsFastThereIsSomethingToWatch) {

@@ -224,6 +224,7 @@ TEST_F(StudyPageTest, AnOlderLedgerIsRefusedAndGoneBackToByItsWordAndThePassphra
 /// A virtual participant's study with one finished session that began some days ago.
 class StudyWithASession : public StudyInThePage {
 protected:
+    using StudyInThePage::StudyInThePage;
     /// Makes the study, opens it in the window and returns the session's id.
     QString withSession(int days) {
         HandTime then;
@@ -614,13 +615,15 @@ TEST_F(StudyWithASession, TheDayAfterIsRefusedOnTheSameDay) {
     asks->close();
 }
 
-class StudyOfThisUser : public StudyInThePage {
+class StudyOfThisUser : public StudyWithASession {
 protected:
-    StudyOfThisUser() : StudyInThePage(false) {}
+    StudyOfThisUser() : StudyWithASession(false) {}
     /// Lets the command line's program write a report into a file of this name.
     void report(const char* action, const QString& name) {
-        ASSERT_NO_FATAL_FAILURE(make());
-        ASSERT_NO_FATAL_FAILURE(open());
+        if (study.study() == nullptr) {
+            ASSERT_NO_FATAL_FAILURE(make());
+            ASSERT_NO_FATAL_FAILURE(open());
+        }
         choose(action);
         QFileDialog* asks = nullptr;
         ASSERT_IN_TIME(comesTrue([&] {
@@ -651,6 +654,16 @@ TEST_F(StudyOfThisUser, AReportThatNamesPeopleIsNotedWithItsPlaceAndShown) {
     EXPECT_EQ(exports[0].place, out.toStdString());
     ASSERT_IN_TIME(comesTrue([this] { return dialog("reportWindow") != nullptr; }));
     EXPECT_EQ(dialog("reportWindow")->findChild<QLineEdit*>("signedBy"), nullptr) << "no session keeps a signature yet";
+    dialog("reportWindow")->close();
+}
+
+TEST_F(StudyOfThisUser, AReportOfSessionsWithoutAClosedRecordIsNotSigned) {
+    RecordProperty("hazard", "H11");
+    withSession(2);  // ended, but its file was never made
+    ASSERT_NO_FATAL_FAILURE(report("committeeReport", "committee.pdf"));
+    EXPECT_THAT(page.findChild<QLabel*>("studyTrouble")->text().toStdString(), HasSubstr("no closed session"));
+    ASSERT_IN_TIME(comesTrue([this] { return dialog("reportWindow") != nullptr; }));
+    EXPECT_EQ(dialog("reportWindow")->findChild<QLineEdit*>("signedBy"), nullptr);
     dialog("reportWindow")->close();
 }
 
