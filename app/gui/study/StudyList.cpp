@@ -224,7 +224,10 @@ QWidget* StudyList::buildFoot() {
     });
     const auto noted = [this](QDialog* asks) {
         const auto what = asks->windowTitle();
-        connect(asks, &QDialog::accepted, this, [this, what] { say(tr("Noted: %1.").arg(what), false); });
+        connect(asks, &QDialog::accepted, this, [this, what] {
+            const auto hinders = whatHinders();
+            say(tr("Noted: %1. %2").arg(what, hinders).trimmed(), !hinders.isEmpty());
+        });
         return asks;
     };
     addAction(*note, tr("An amendment of the committee…"), "amendStudy",
@@ -262,13 +265,15 @@ void StudyList::say(const QString& what, bool trouble) {
     trouble_->setVisible(!what.isEmpty());
 }
 
-void StudyList::sayWhatHinders() {
+void StudyList::sayWhatHinders() { say(whatHinders()); }
+
+QString StudyList::whatHinders() const {
     const auto* study = study_.study();
     const auto approved = study == nullptr ? Result<void>() : study->stillApproved();
     auto words = approved ? QString() : tr("No session can begin: %1").arg(sentence(approved.error()));
     if (release_->isVisible()) words += ' ' + tr("Here that is “%1” under “Note”.").arg(release_->text());
     if (goBack_->isVisible()) words += ' ' + tr("Here that is “%1” under “Note”.").arg(goBack_->text());
-    say(words);
+    return words;
 }
 
 void StudyList::refresh() {

@@ -50,6 +50,7 @@ private:
     void choose(const QString& code);
     void askForConsent(const QString& code);
     [[nodiscard]] QString signedIn(const QString& code) const;
+    [[nodiscard]] QString whatHinders() const;
     void makeReport(const QString& title, const QString& name, const QStringList& more);
     void askForExport(const BidsWith& with);
     void changePassphrase();

@@ -553,6 +553,23 @@ TEST_F(StudyWithASession, AnAdverseEventIsNotedByTheWindow) {
     EXPECT_FALSE(events[0].second.serious);
 }
 
+TEST_F(StudyWithASession, ASeriousEventIsNotedAndTheHoldIsStillSaid) {
+    RecordProperty("hazard", "H12");
+    withSession(2);
+    choose("noteAdverseEvent");
+    auto* asks = dialog("adverseEventDialog");
+    ASSERT_NE(asks, nullptr);
+    asks->findChild<QLineEdit*>("what")->setText("fell");
+    pick(*asks, "severity", "3");
+    pick(*asks, "relation", "1");
+    asks->findChild<QCheckBox*>("serious")->setChecked(true);
+    click(*asks->findChild<QPushButton*>("noteEvent"));
+    ASSERT_EQ(study.study()->adverseEventCount(), 1U);
+    const auto says = page.findChild<QLabel*>("studyTrouble")->text().toStdString();
+    for (const char* part : {"⚠", "Noted", "No session can begin", "Release after a serious event"})
+        EXPECT_THAT(says, HasSubstr(part));
+}
+
 TEST_F(StudyWithASession, TheDayAfterIsNotedByTheWindow) {
     RecordProperty("hazard", "H12");
     const auto session = withSession(2);
