@@ -31,18 +31,23 @@ constexpr const char* kLast = "lastRehearsal";  // of QSettings
 struct SeenRehearsal {
     std::optional<Modality> modality = {};
     std::optional<Unfinished> unfinished = {};
-    std::optional<bool> person = {};  ///< whether a person answered in the participant's last session
-    QString ended = {};               ///< the id of the last session that has ended
+    std::optional<bool> person = {};             ///< whether a person answered in the participant's last session
+    QString ended = {};                          ///< the id of the last session that has ended
+    std::optional<std::uint64_t> lastSeed = {};  ///< of the last session's participant
 };
 
-SeenRehearsal seenIn(const QString& folder, const std::string& participant) {
+/// `participant`: empty for the one of the last session.
+SeenRehearsal seenIn(const QString& folder, const std::string& participant = {}) {
     SeenRehearsal seen;
     if (folder.isEmpty() || !Study::isThere(folder.toStdString())) return seen;
     const auto study = Study::open(folder.toStdString(), nullptr, Study::Access::Read);
     if (!study || !study->isRehearsal()) return seen;
     seen.modality = study->settings().modality;
-    const auto who = study->find(participant);
-    for (const auto& session : study->sessions()) {
+    const auto sessions = study->sessions();
+    const auto last = sessions.empty() ? std::string() : sessions.back().code;
+    if (const auto theirs = study->find(last)) seen.lastSeed = theirs->virtualSeed;
+    const auto who = study->find(participant.empty() ? last : participant);
+    for (const auto& session : sessions) {
         if (who && session.participant == who->id) seen.person = session.basis != SessionBasis::Virtual;
         if (session.state != StudySessionState::Unfinished && session.opened) seen.ended = qtext(session.id);
     }
@@ -54,7 +59,7 @@ SeenRehearsal seenIn(const QString& folder, const std::string& participant) {
 /// Returns the last rehearsal's folder if its session was interrupted, perhaps with the program; otherwise a new one.
 QString firstFolder() {
     const auto last = QSettings().value(kLast).toString();
-    return seenIn(last, "virtual:1").unfinished ? last : newFolder();
+    return seenIn(last).unfinished ? last : newFolder();
 }
 
 constexpr double kTenfold = 10;
@@ -85,6 +90,7 @@ RehearsalPage::RehearsalPage(QWidget* parent)
     form_->show(fields());
     seats_->connectFields();
     seats_->recall(kRehearsals);
+    if (const auto seed = seenIn(folder_->folder()).lastSeed) form_->set("rehearsalSeed", QString::number(*seed));
     column->addWidget(form_);
     column->addWidget(seats_->about());
     column->addStretch();

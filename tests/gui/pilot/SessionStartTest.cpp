@@ -5,11 +5,13 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QRadioButton>
+#include <QSettings>
 #include <QTest>
 #include <fstream>
 #include <gmock/gmock.h>
 
 #include "app/gui/controller/DeviceWatch.h"
+#include "app/gui/pilot/RehearsalPage.h"
 #include "app/gui/pilot/SessionStartPage.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
 #include "tests/gui/Looks.h"
@@ -205,6 +207,24 @@ TEST_F(SessionStart, OneWhoseRecordIsNotWholeIsOfferedToBeEndedAlone) {
     EXPECT_FALSE(page.findChild<QRadioButton*>("goOnWithIt")->isEnabled());
     page.findChild<QRadioButton*>("endIt")->click();
     EXPECT_EQ(page.start().unfinished, "end");
+}
+
+TEST_F(SessionStart, ARehearsalThatWasInterruptedIsOfferedWhateverItsSeed) {
+    RecordProperty("hazard", "H8");
+    prepare(7);
+    SessionRequest request;
+    request.code = who.code;
+    request.script = {"pilot-thresholds", "a"};
+    request.codeConfirmed = request.devicesSimulated = true;
+    request.exclusions = nothingExcludes();
+    ASSERT_TRUE(study->beginSession(request));
+    const auto place = QString::fromStdString((scratch.path() / "study").string());
+    QSettings().setValue("lastRehearsal", place);
+    const gui::RehearsalPage next;
+    EXPECT_EQ(next.folder(), place);
+    EXPECT_EQ(next.rehearsal().seed, 7U);
+    EXPECT_TRUE(next.findChild<gui::UnfinishedOffer*>()->asks());
+    QSettings().remove("lastRehearsal");
 }
 
 TEST_F(SessionStart, AVirtualParticipantAndARehearsalWithElectrodesHaveTheSimulatedBenchAlone) {
