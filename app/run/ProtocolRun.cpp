@@ -72,10 +72,13 @@ Result<void> ProtocolRun::leaveFault() {
     const auto seen = bench().telemetry();
     if (seen.state != InterlockState::Faulted) return {};
     if (order_.resetFault) return bench().resetFault();
+    const auto kind = resultTraits(order_.declaration.kind).kind;
+    const bool session = kind == ResultKind::PilotIdentification || kind == ResultKind::PilotThresholds;
     return fail(ErrorCode::NotArmed,
                 "the stimulator is in a fault, {}. {} Fix the cause, then reset the fault: run again with "
-                "--reset-fault, or press “Reset fault and run again…” in the window",
-                seen.reason.view(), outputAfter(seen.fault));
+                "--reset-fault, or {} in the window",
+                seen.reason.view(), outputAfter(seen.fault),
+                session ? "open the bench under “Live” and press “Reset”" : "press “Reset fault and run again…”");
 }
 
 ProtocolRun::~ProtocolRun() {
