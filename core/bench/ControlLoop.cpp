@@ -150,6 +150,8 @@ void ControlLoop::takeCommands(Instant now) noexcept {
 
 void ControlLoop::noteState(Instant now) noexcept {
     const auto state = parts_.interlock.state();
+    if (state == InterlockState::Faulted)  // a later cause may be graver
+        if (const auto cause = parts_.interlock.cause()) shown_.fault = cause;
     if (state == seenState_) return;
     const auto before = std::exchange(seenState_, state);
     const bool wasConnected = before != InterlockState::Disconnected;

@@ -37,6 +37,18 @@ static_assert(std::size(kCauses) == kFaultCauseCount);
 constexpr std::uint32_t bitOf(FaultCause cause) noexcept { return 1U << static_cast<unsigned>(cause); }
 constexpr std::uint32_t kAllCauses = (1U << kFaultCauseCount) - 1;
 
+/// The causes after which something must be checked before the output is armed, the gravest first. None may hide
+/// behind a lesser one, as of a device that is unplugged after it broke a limit.
+constexpr std::array kGraveCauses{FaultCause::StuckOn, FaultCause::LimitBroken, FaultCause::NetCharge,
+                                  FaultCause::Internal};
+
+/// Returns the gravest of the causes, and of lesser ones the first in the order of FaultCause. `causes` is not 0.
+FaultCause gravestOf(std::uint32_t causes) noexcept {
+    for (const auto cause : kGraveCauses)
+        if ((causes & bitOf(cause)) != 0) return cause;
+    return static_cast<FaultCause>(std::countr_zero(causes));
+}
+
 // --- what is refused ------------------------------------------------------------------------------------------------
 
 struct Move {
@@ -138,7 +150,6 @@ struct Reset {
     InterlockState state;
     std::uint32_t causes;
     std::string_view reason;
-    [[nodiscard]] FaultCause firstCause() const noexcept { return static_cast<FaultCause>(std::countr_zero(causes)); }
 };
 
 constexpr Rule<Reset> kResetRules[] = {
@@ -146,7 +157,7 @@ constexpr Rule<Reset> kResetRules[] = {
      [](auto& r) { return fail(ErrorCode::NotArmed, "nothing to reset: the output is {}", nameOf(r.state)); }},
     {ResetCause, [](auto& r) { return r.causes != 0; },
      [](auto& r) {
-         return fail(ErrorCode::NotArmed, "cannot reset while the fault persists: {} ({})", nameOf(r.firstCause()),
+         return fail(ErrorCode::NotArmed, "cannot reset while the fault persists: {} ({})", nameOf(gravestOf(r.causes)),
                      r.reason);
      }},
 };
@@ -173,11 +184,8 @@ FixedText<159> Interlock::reason() const noexcept {
 std::optional<FaultCause> Interlock::cause() const noexcept {
     const std::lock_guard lock(mutex_);
     if (state_.load(std::memory_order_relaxed) != InterlockState::Faulted) return std::nullopt;
-    if ((causes_ & bitOf(FaultCause::StuckOn)) != 0) return FaultCause::StuckOn;
-    for (int i = 0; i < kFaultCauseCount; ++i) {
-        if ((causes_ & bitOf(FaultCause(i))) != 0) return FaultCause(i);
-    }
-    return std::nullopt;
+    const std::uint32_t present = causes_ & kAllCauses;
+    return present == 0 ? std::nullopt : std::optional(gravestOf(present));
 }
 
 Result<void> Interlock::move(InterlockState from, InterlockState to, const char* what) {

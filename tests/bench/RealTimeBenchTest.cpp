@@ -58,6 +58,19 @@ TEST_F(RealTimeBenchTest, ADeviceThatSaysThatItGoesOnIsStuckOnAndNotSilent) {
     }
 }
 
+TEST_F(RealTimeBenchTest, ACauseThatComesAfterTheFaultIsShownToo) {
+    RecordProperty("hazard", "H12");
+    open({"sim:stimulator?fault=short@0.8s", "sim:finger?fault=unplug@1.8s"}, {Role::Sensor, Role::Stimulator}, true);
+    ASSERT_IN_TIME(arm());
+    ASSERT_IN_TIME(bench_->drive(DriveSource::Manual, 1, 1));
+    ASSERT_FALSE(bench_->wait(Seconds(1.5)));
+    EXPECT_IN_TIME(bench_->telemetry().fault == FaultCause::ShortElectrode);
+    const auto until = steady_clock::now() + 5s;
+    while (bench_->telemetry().fault != FaultCause::DeviceFault && steady_clock::now() < until)
+        std::this_thread::sleep_for(10ms);
+    EXPECT_IN_TIME(bench_->telemetry().fault == FaultCause::DeviceFault) << "the fingertip was unplugged";
+}
+
 TEST_F(RealTimeBenchTest, StopReachesForceOffWithinTenMilliseconds) {
     RecordProperty("hazard", "H2");
     constexpr int kStops = 200;

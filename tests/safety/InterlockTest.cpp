@@ -1,6 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <gtest/gtest.h>
 #include <limits>
+#include <random>
+#include <set>
 #include <thread>
 
 #include "core/safety/Interlock.h"
@@ -150,6 +153,28 @@ TEST(Interlock, FaultLatchesFromEverywhereAndNeedsItsCausesGone) {
         EXPECT_TRUE(lock.reset());
         EXPECT_EQ(lock.state(), State::Disarmed);
         EXPECT_TRUE(lock.reason().empty());
+    }
+}
+
+TEST(Interlock, NoLesserCauseHidesAGraverOne) {
+    RecordProperty("hazard", "H1");
+    constexpr std::array kGravestFirst{FaultCause::StuckOn, FaultCause::LimitBroken, FaultCause::NetCharge,
+                                       FaultCause::Internal};
+    std::mt19937 random(173);
+    for (int round = 0; round < 2000; ++round) {
+        Interlock lock;
+        bringTo(lock, State::Delivering);
+        EXPECT_EQ(lock.cause(), std::nullopt);
+        std::set<FaultCause> came;
+        for (int left = std::uniform_int_distribution(1, 5)(random); left > 0; --left) {
+            const auto cause = FaultCause(std::uniform_int_distribution(0, kFaultCauseCount - 1)(random));
+            lock.fault(cause, "why");
+            came.insert(cause);
+            const auto grave = std::ranges::find_if(kGravestFirst, [&](auto each) { return came.contains(each); });
+            const auto shown = grave == kGravestFirst.end() ? *came.begin() : *grave;
+            ASSERT_EQ(lock.cause(), shown) << nameOf(*lock.cause());
+            ASSERT_THAT(lock.reset(), refusedSaying(std::string(nameOf(shown))));
+        }
     }
 }
 

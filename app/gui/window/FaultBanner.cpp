@@ -83,7 +83,7 @@ void FaultBanner::refresh(const Telemetry& telemetry, QTime now) {
     cause_->setText(faultedAt_.isValid() ? QString("%1 · %2").arg(faultedAt_.toString("HH:mm:ss"), cause) : cause);
     output_->setText(outputWords(telemetry));
     const auto after = afterFault(telemetry.fault);
-    next_->setText(after.mayArm ? tr("%1 Arming is asked for next.").arg(after.next) : after.next);
+    next_->setText(mayArm_ ? tr("%1 Arming is asked for next.").arg(after.next) : after.next);
     if (toolTip() == text()) return;
     setToolTip(text());
     setAccessibleDescription(text());
@@ -102,8 +102,13 @@ void FaultBanner::note(const Telemetry& telemetry, QTime now) {
         else if (!row.within)
             broken_ = true;
     }
-    if (telemetry.state == InterlockState::Faulted && state_ != InterlockState::Faulted)
-        faultedAt_ = state_ == InterlockState::Disconnected ? QTime() : now;
+    if (telemetry.state == InterlockState::Faulted) {
+        const bool before = state_ == InterlockState::Disconnected;  // it was there when the bench was opened
+        if (state_ != InterlockState::Faulted) faultedAt_ = before ? QTime() : now;
+        const bool allowed = state_ == InterlockState::Faulted ? mayArm_ : !before;
+        mayArm_ = allowed && !another && afterFault(telemetry.fault).mayArm;
+        asJudged_ = (asJudged_ || state_ != InterlockState::Faulted) && saysNothingOfTrains(telemetry.fault);
+    }
     at_ = telemetry.at;
     state_ = telemetry.state;
     trains_ = telemetry.trainsDelivered;
@@ -118,13 +123,10 @@ QString FaultBanner::outputWords(const Telemetry& telemetry) const {
     const auto trains = telemetry.trainsDelivered;
     if (trains == 0) return tr("%1 No train was delivered.").arg(off);
     const auto delivered = trains == 1 ? tr("1 train was delivered") : tr("%1 trains were delivered").arg(trains);
-    if (unseen_ || broken_ || telemetry.exposure().empty() || !saysNothingOfTrains(telemetry.fault))
-        return QString("%1 %2.").arg(off, delivered);
+    if (unseen_ || broken_ || telemetry.exposure().empty() || !asJudged_) return QString("%1 %2.").arg(off, delivered);
     return (notEvaluated_ ? tr("%1 %2, within every limit that was evaluated.") : tr("%1 %2, within all limits."))
         .arg(off, delivered);
 }
-
-bool FaultBanner::mayArmNext(std::optional<FaultCause> cause) { return afterFault(cause).mayArm; }
 
 QString FaultBanner::text() const { return cause_->text() + "\n" + output_->text() + "\n" + next_->text(); }
 

@@ -20,8 +20,9 @@ public:
     void refresh(const Telemetry& telemetry, QTime now = QTime::currentTime());
     /// While the operator is blind, neither the telemetry nor this banner says anything about trains.
     void setBlind(bool blind) { blind_ = blind; }
-    /// True if the output may be armed as soon as the fault is reset; false if something must be checked before.
-    [[nodiscard]] static bool mayArmNext(std::optional<FaultCause> cause);
+    /// True if the output may be armed as soon as the fault of the last refreshes is reset. False if one of its causes
+    /// needs a check before, or if an earlier program left it, of which not every cause is known.
+    [[nodiscard]] bool mayArmNext() const { return mayArm_; }
     /// The full text for a tool tip and for the log.
     [[nodiscard]] QString text() const;
 
@@ -41,6 +42,8 @@ private:
     bool unseen_ = false;        ///< some trains of this bench left the gate's table unread
     bool broken_ = false;        ///< this bench exceeded a limit
     bool notEvaluated_ = false;  ///< a limit of this bench was not evaluated
+    bool mayArm_ = false;        ///< every cause since the fault began allows it
+    bool asJudged_ = false;      ///< no cause since the fault began contradicts what the gate judged
     bool blind_ = false;
 };
 

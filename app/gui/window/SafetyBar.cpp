@@ -232,13 +232,10 @@ void SafetyBar::refresh(const Telemetry& telemetry) {
 void SafetyBar::followReset(const Telemetry& telemetry) {
     const bool left = state_ == InterlockState::Faulted && telemetry.state != InterlockState::Faulted;
     const bool mayArm = left && telemetry.state == InterlockState::Disarmed && resetAsked_ &&
-                        !controller_.stoppedSince(*resetAsked_) && FaultBanner::mayArmNext(cause_);
+                        !controller_.stoppedSince(*resetAsked_) && fault_->mayArmNext();
     if (left) resetAsked_.reset();
     if (mayArm) emit faultReset(drove_);
-    if (telemetry.state == InterlockState::Faulted)
-        cause_ = telemetry.fault;
-    else
-        drove_ = telemetry.driving;
+    if (telemetry.state != InterlockState::Faulted) drove_ = telemetry.driving;
 }
 
 void SafetyBar::showState(const Telemetry& telemetry) {

@@ -115,7 +115,6 @@ private:
     bool factsFit_ = true;
     int pulse_ = 0;  ///< frames left of the flash for the last train
     std::optional<StopMark> resetAsked_;
-    std::optional<FaultCause> cause_;
     DriveSource drove_ = DriveSource::Off;  // as of the last refresh without a fault
     InterlockState state_ = InterlockState::Disconnected;
     InterlockState shown_ = InterlockState::Disconnected;

@@ -2,10 +2,13 @@
 #include <QTest>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <random>
+#include <set>
 
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/ExposureTable.h"
 #include "app/gui/theme/Theme.h"
+#include "app/gui/window/FaultBanner.h"
 #include "app/gui/window/FoldingDock.h"
 #include "app/gui/window/LimitBar.h"
 #include "app/gui/window/SafetyBar.h"
@@ -197,6 +200,43 @@ TEST_F(Bar, HasAWordAndAShapeForEveryState) {
         shapes << style.shape;
         shot(bar, "safetybar-" + style.word.toLower());
     }
+}
+
+TEST_F(Bar, OffersToArmOnlyIfEveryCauseOfAFaultAllowsIt) {
+    RecordProperty("hazard", "H12");
+    std::set<FaultCause> grave{FaultCause::NetCharge, FaultCause::LimitBroken, FaultCause::Internal,
+                               FaultCause::StuckOn};
+    int offers = 0;
+    QObject::connect(&bar, &gui::SafetyBar::faultReset, [&] { ++offers; });
+    std::mt19937 random(1213);
+    int allowed = 0;
+    for (int round = 0; round < 300; ++round) {
+        Interlock lock;
+        ASSERT_TRUE(lock.connect());
+        const bool kept = std::bernoulli_distribution(0.2)(random);  // left by an earlier program
+        bar.refresh(in(InterlockState::Disconnected, ""));
+        if (!kept) bar.refresh(in(InterlockState::Delivering, ""));
+        bool safe = !kept;
+        std::string came = kept ? "kept," : "";
+        for (int left = std::uniform_int_distribution(1, 4)(random); left > 0; --left) {
+            const auto cause = FaultCause(std::uniform_int_distribution(0, kFaultCauseCount - 1)(random));
+            came += std::string(nameOf(cause)) + ",";
+            safe = safe && !grave.contains(cause);
+            lock.fault(cause, "why");
+            auto now = in(InterlockState::Faulted, "why");
+            now.fault = lock.cause();
+            bar.refresh(now);
+            const auto says = bar.findChild<gui::FaultBanner*>()->text();
+            ASSERT_EQ(says.contains("Arming is asked for"), safe) << came << says.toStdString();
+        }
+        bar.resetFault();
+        offers = 0;
+        bar.refresh(in(InterlockState::Disarmed, ""));
+        ASSERT_EQ(offers, safe ? 1 : 0) << came;
+        allowed += offers;
+    }
+    EXPECT_GT(allowed, 30);
+    EXPECT_LT(allowed, 270);
 }
 
 TEST_F(Bar, StatesStandOutOnTheScreenInBothThemes) {
