@@ -80,7 +80,10 @@ void BenchController::arm(const ArmRequest& request, StopMark asked) {
         if (bench.telemetry().paused) bench.disarm();  // so that resuming releases no train
         bench.resume();                                // ends a pause that began before this arming
         const auto armed = bench.arm(request);
-        if (!armed) bench.disarm();                                                   // also ends an earlier arming
+        if (!armed) {
+            bench.disarm();                                    // also ends an earlier arming
+            static_cast<void>(bench.drive(DriveSource::Off));  // what was to drive then waits for no later arming
+        }
         if (auto again = live_->repeatCapture(); !again) scopeFailed(again.error());  // arming may use the scope
         if (!armed) return armed;
         tell([this] { emit this->armed(); });
@@ -248,8 +251,12 @@ std::uint64_t BenchController::runPilot(const RunOrder& order, const PilotSeats&
 void BenchController::order(StopMark asked, std::function<Result<void>(Bench&)> task) {
     thread_.post([this, asked, task = std::move(task)] {
         if (!live_) return report(Error{ErrorCode::NotArmed, "Nothing was done: no bench is open."});
-        auto done = live_->bench().begin(asked);
-        if (done) done = task(live_->bench());
+        auto& bench = live_->bench();
+        auto done = bench.begin(asked);
+        if (done)
+            done = task(bench);
+        else  // nothing that was ordered together with this drives later
+            static_cast<void>(bench.drive(DriveSource::Off));
         if (!done) report(done.error());
     });
 }

@@ -56,6 +56,25 @@ TEST_F(FaultRecovery, TakesTwoPressesAndDrivesAsBefore) {
     }
 }
 
+TEST_F(FaultRecovery, NothingDrivesAfterArmingWasRefusedOrStopped) {
+    RecordProperty("hazard", "H2");
+    ASSERT_NO_FATAL_FAILURE(openWith("open@500s"));
+    auto& controller = window.controller();
+    const auto driving = [&] { return controller.telemetry().driving; };
+    for (const bool stopped : {true, false}) {
+        const auto asked = controller.mark();
+        if (stopped) controller.stop("a test");
+        controller.drive(DriveSource::Manual, 0.5, 1);
+        ASSERT_IN_TIME(comesTrue([&] { return driving() == DriveSource::Manual; }));
+        ArmRequest request;
+        request.operatorConfirmed = true;
+        if (!stopped) request.load = "no load";  // refused before its check
+        controller.arm(request, asked);
+        EXPECT_IN_TIME(comesTrue([&] { return driving() == DriveSource::Off; })) << stopped;
+        EXPECT_EQ(state(), InterlockState::Disarmed);
+    }
+}
+
 TEST_F(FaultRecovery, NothingThatWasOffIsOfferedToDrive) {
     RecordProperty("hazard", "H12");
     ASSERT_NO_FATAL_FAILURE(openWith("unplug@4s..5s"));
