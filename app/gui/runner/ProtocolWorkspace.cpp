@@ -35,6 +35,12 @@ namespace {
 
 constexpr int kPreviewAfter_ms = 150;
 
+QString addressesOf(const std::vector<DeviceUri>& uris) {
+    QStringList all;
+    for (const auto& uri : uris) all << qtext(uri.text());
+    return all.isEmpty() ? QObject::tr("the simulated devices") : all.join(", ");
+}
+
 }  // namespace
 
 ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString& protocol, QWidget* parent)
@@ -289,6 +295,11 @@ void ProtocolWorkspace::ask(bool resetFault) {
         if (const auto part = pages_->form().goToRefused()) showStep(*part ? kReference : kSettings);
         return;
     }
+    // The operator acknowledges the fault of the last run; other devices may have one that nobody has seen.
+    if (resetFault && addressesOf(asked->uris) != addressesOf(last_->order.uris))
+        return panel_->say(tr("The fault was left in %1, and %2 is chosen now: nothing was reset. Choose the same "
+                              "devices again, or press Run.")
+                               .arg(addressesOf(last_->order.uris), addressesOf(asked->uris)));
     const auto harmless = controller_.allVirtual(asked->uris);
     if (!harmless) return panel_->say(tr("%1 Nothing was opened.").arg(sentence(harmless.error())));
     asked->resetFault = resetFault;
@@ -298,7 +309,11 @@ void ProtocolWorkspace::ask(bool resetFault) {
     const auto current = tr("This run puts out current on hardware, into a load declared as %1. Is exactly that "
                             "connected, and no person?")
                              .arg(QString::fromStdString(declaredLoad(asked_.order().settings.parameters)));
-    panel_->askToArm(resetFault ? tr("The fault is reset first: is its cause gone? %1").arg(current) : current);
+    if (!resetFault) return panel_->askToArm(current);
+    const auto& error = last_->result.outcome.error;
+    const auto why = error ? withoutScriptPlace(qtext(error->message)).section(". ", 0, 0) : tr("it ended the run");
+    panel_->askToArm(tr("The fault is reset first, of %1: %2 Is its cause gone? %3")
+                         .arg(addressesOf(last_->order.uris), sentence(why), current));
 }
 
 /// True also while another run is just ending; its last messages are not for this page.

@@ -205,8 +205,17 @@ TEST_F(HardwareWindow, ARunThatAFaultEndedIsRunAgainByAResetThatAsks) {
     ASSERT_IN_TIME(comesTrue([&] { return runner->findChild<QLabel*>("runTrouble")->text().contains("in a fault"); }))
         << "a run alone resets nothing";
     ASSERT_IN_TIME(ended());
+    auto* devices = runner->findChild<QLineEdit*>("devices");
+    const auto faulted = devices->text();
+    devices->setText("sciencemode:P24-9999 sim:finger");
+    presses("Reset fault and run again…");
+    EXPECT_THAT(runner->findChild<QLabel*>("runTrouble")->text(), Says("nothing was reset")) << "another unit's fault";
+    EXPECT_FALSE(runner->findChild<QLabel*>("armQuestion")->isVisible());
+    devices->setText(faulted);
     presses("Reset fault and run again…");
     EXPECT_THAT(runner->findChild<QLabel*>("armQuestion")->text(), Says("fault is reset first"));
+    EXPECT_THAT(runner->findChild<QLabel*>("armQuestion")->text(), Says("P24-0017")) << "the unit";
+    EXPECT_THAT(runner->findChild<QLabel*>("armQuestion")->text(), Says("left by an earlier run")) << "and why";
     EXPECT_EQ(window.controller().activity(), gui::Activity::Closed) << "nothing is opened before the answer";
     presses("Arm and run");
     presses("Arm output");
