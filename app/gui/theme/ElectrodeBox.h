@@ -1,5 +1,6 @@
-// ElectrodeBox.h - the electrodes that a person has named, each with the area that was typed for it last. Choosing one
-// fills in its area; another area that is typed while it is named is kept with it. The user's settings keep them.
+// ElectrodeBox.h - the electrodes that a person has named, each with the area that was typed or confirmed with Enter
+// while a new name was shown. Choosing one fills in its area. An area that is typed then and is another clears the
+// name: it belongs to no electrode until one is named, and changes none. The user's settings keep them.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -19,6 +20,7 @@ public:
 private:
     void list();
     void name();
+    void confirm();
     void keep();
     void follow();
     QLineEdit& area_;

@@ -49,10 +49,20 @@ void typeInto(QLineEdit& line, const QString& text) {
     QTest::keyClick(&line, Qt::Key_Return);
 }
 
-TEST(FieldForm, AnElectrodesAreaIsRememberedWithItsNameInEveryForm) {
-    RecordProperty("hazard", "H9");
+void emptyWithEnter(QLineEdit& line) {
+    line.selectAll();
+    QTest::keyClick(&line, Qt::Key_Delete);
+    QTest::keyClick(&line, Qt::Key_Return);
+}
+
+void forgetElectrodes() {
     QSettings().remove("electrodeAreas");
     QSettings().remove("electrode");
+}
+
+TEST(FieldForm, AnElectrodesAreaIsRememberedWithItsNameInEveryForm) {
+    RecordProperty("hazard", "H9");
+    forgetElectrodes();
     Random random(54, "electrodes");
     const QStringList names{"Pad, 5 cm", "pad 5 cm", "Ring/steel", "Elektrode µ", "A", "AB"};
     std::map<QString, QString> expected;
@@ -64,22 +74,39 @@ TEST(FieldForm, AnElectrodesAreaIsRememberedWithItsNameInEveryForm) {
         form.setVisible(true);
         auto& area = *form.findChild<QLineEdit*>(QString::fromStdString(key));
         auto& box = *form.findChild<QComboBox*>("electrode");
+        const auto remembered = [&box] {
+            box.showPopup();
+            box.hidePopup();
+            return std::size_t(box.count());
+        };
         const auto& name = names[int(random.below(std::uint64_t(names.size())))];
-        const auto known = expected.find(name);
         typeInto(*box.lineEdit(), name);
-        if (known != expected.end()) {
+        const auto typed = QString::number(double(1 + random.below(900)) / 10);
+        if (const auto known = expected.find(name); known != expected.end()) {
             ASSERT_EQ(area.text(), known->second) << name.toStdString();
             EXPECT_EQ(form.text(key), known->second);
+            if (random.below(2) == 0) {
+                emptyWithEnter(area);
+                EXPECT_EQ(box.currentText(), name);
+                typeInto(area, known->second = typed);
+            }
+        } else {
+            ASSERT_EQ(remembered(), expected.size()) << "what stood beside it is not its own";
+            if (random.below(2) == 0) {
+                QTest::keyClick(&area, Qt::Key_Return);  // says that it is
+                expected[name] = "7";
+            } else {
+                typeInto(area, random.below(2) == 0 ? "nonsense" : "-3");  // is kept with none
+                ASSERT_EQ(remembered(), expected.size());
+                typeInto(area, expected[name] = typed);
+            }
         }
-        expected.try_emplace(name, "7");  // what stood beside it when it was named
+        EXPECT_EQ(box.currentText(), name);
         if (random.below(2) == 0) {
-            expected[name] = QString::number(double(1 + random.below(900)) / 10);
-            typeInto(area, expected[name]);
+            typeInto(area, random.below(2) == 0 ? "nonsense" : "901");
+            EXPECT_EQ(box.currentText(), "") << "it is not the area of " << name.toStdString();
         }
-        if (random.below(4) == 0) typeInto(area, random.below(2) == 0 ? "nonsense" : "-3");  // is kept with none
-        box.showPopup();
-        box.hidePopup();
-        ASSERT_EQ(box.count(), int(expected.size()));
+        ASSERT_EQ(remembered(), expected.size());
         gui::FieldForm next;
         next.show({gui::numberField("area", "Area", "cm2", 0, 1000, expected[name].toDouble(), "")});
         EXPECT_EQ(next.findChild<QComboBox*>("electrode")->currentText(), name) << "it is the one of this area";
@@ -87,6 +114,28 @@ TEST(FieldForm, AnElectrodesAreaIsRememberedWithItsNameInEveryForm) {
         EXPECT_EQ(next.findChild<QComboBox*>("electrode")->currentText(), "");
     }
     EXPECT_EQ(gui::FieldForm().findChild<QComboBox*>("electrode"), nullptr);
+}
+
+/// The line of the area stands above the name, so people type the area first.
+TEST(FieldForm, AnAreaTypedBeforeAnotherElectrodeIsNamedChangesNeither) {
+    RecordProperty("hazard", "H1");
+    RecordProperty("hazard", "H9");
+    forgetElectrodes();
+    gui::FieldForm form;
+    form.show({gui::numberField("area", "Area", "cm2", 0, 1000, 7, "")});
+    form.setVisible(true);
+    auto& area = *form.findChild<QLineEdit*>("area");
+    auto& box = *form.findChild<QComboBox*>("electrode");
+    typeInto(*box.lineEdit(), "A");
+    typeInto(area, "4");
+    typeInto(area, "9");
+    EXPECT_EQ(box.currentText(), "");
+    typeInto(*box.lineEdit(), "B");
+    EXPECT_EQ(area.text(), "9");
+    typeInto(*box.lineEdit(), "A");
+    EXPECT_EQ(area.text(), "4");
+    typeInto(*box.lineEdit(), "B");
+    EXPECT_EQ(QSettings().value("electrodeAreas").toMap(), (QVariantMap{{"A", "4"}}));
 }
 
 TEST(FieldForm, ADecimalCommaIsReadAndAnUncertainOneIsRefusedWithItsReason) {
