@@ -31,8 +31,8 @@ CertificateForm::CertificateForm(std::filesystem::path order, QWidget* parent)
     auto* column = columnIn(*all);
     column->addWidget(heading(tr("What only people know of the certificate"), this));
     column->addWidget(explanation(tr("An entry that is missing becomes a ruled line to write on. Laboratory, address, "
-                                     "place and who authorises are kept for all certificates; the others until this "
-                                     "window is closed."),
+                                     "place and who authorises are kept for all certificates; the others for the next "
+                                     "calibration alone."),
                                   this));
     const auto known = certificateDetails(ifThere(order_), utcToday());
     const auto details = known.value_or(CertificateDetails());
@@ -98,6 +98,12 @@ CertificatePart::CertificatePart(QWidget* parent) : QWidget(parent) {
 std::filesystem::path CertificatePart::file() const { return folder_.filePath("order.json").toStdString(); }
 
 void CertificatePart::fill(RunOrder& order) const { order.certificateDetails = ifThere(file()); }
+
+void CertificatePart::forget() {
+    std::error_code ignored;
+    std::filesystem::remove(file(), ignored);
+    show();
+}
 
 void CertificatePart::show() {
     const auto known = certificateDetails(ifThere(file()), utcToday());

@@ -1,6 +1,6 @@
 // CertificatePart.h - the texts of a stimulator calibration's certificate that only people know: a button with a form,
-// and what is entered so far. The laboratory's own are kept; those of the item and its customer last as long as the
-// window, so that no later item gets them.
+// and what is entered so far. The laboratory's own are kept; those of the item and its customer last until a
+// calibration has used them, so that no later item gets them.
 //
 // Thread-safety: the GUI thread.
 #pragma once
@@ -37,6 +37,8 @@ public:
     explicit CertificatePart(QWidget* parent);
     /// Names the file with the details of the item, if there is one.
     void fill(RunOrder& order) const;
+    /// Forgets the details of the item and its customer: its certificate has them.
+    void forget();
 
 private:
     [[nodiscard]] std::filesystem::path file() const;

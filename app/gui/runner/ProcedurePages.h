@@ -35,7 +35,7 @@ public:
     [[nodiscard]] FieldForm& form() noexcept { return *form_; }
     [[nodiscard]] WorstPage& worst() noexcept { return *worst_; }
     [[nodiscard]] RunViews& views() noexcept { return *views_; }
-    [[nodiscard]] const CertificatePart& certificate() const noexcept { return *certificate_; }
+    [[nodiscard]] CertificatePart& certificate() noexcept { return *certificate_; }
     [[nodiscard]] SignPage& sign() noexcept { return *sign_; }
 
 private:

@@ -364,6 +364,9 @@ void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
     showStep(kResult);
     showButtons();
     if (watched) steps_->focusShown();  // the progress bar had the focus, and is hidden now
+    if (auto& certificate = pages_->certificate();
+        !error && !certificate.isHidden() && pages_->form().text("mode") != "check")
+        certificate.forget();
     if (!error) return;
     if (run->result.session.empty())
         panel_->say(withOutput(inThePast(sentence(withoutScriptPlace(qtext(error->message)))),

@@ -7,6 +7,7 @@
 #include "app/gui/calibrate/CalibrateWorkspace.h"
 #include "app/gui/calibrate/CalibrationPlot.h"
 #include "app/gui/calibrate/CalibrationView.h"
+#include "app/gui/calibrate/CertificatePart.h"
 #include "app/gui/calibrate/ToleranceCard.h"
 #include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/ProtocolWorkspace.h"
@@ -80,10 +81,19 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_FALSE(button("checkButton")->isEnabled());
     shot(workspace, "calibrate_first");
     withoutWarmUp();
+    auto& certificate = *workspace.runner().findChild<gui::CertificatePart*>();
+    click(*certificate.findChild<QPushButton*>("certificateDetails"));
+    auto& form = *certificate.findChild<gui::CertificateForm*>();
+    form.findChild<QLineEdit*>("customer")->setText("The customer of this item alone");
+    click(*find<QPushButton>(form, "Keep"));
     click(run());
     EXPECT_FALSE(button("calibrateButton")->isEnabled());
     ASSERT_IN_TIME(ends()) << (ended ? ended->result.outcome.error->message : "it did not end");
     EXPECT_EQ(ended->result.verdict(), "pass");
+    EXPECT_FALSE(ended->order.certificateDetails.empty());
+    RunOrder next;
+    certificate.fill(next);
+    EXPECT_TRUE(next.certificateDetails.empty()) << "the next item has another customer";
     EXPECT_GT(drawnWhileRunning, 0U);
     EXPECT_THAT(says("calibrationState"), HasSubstr("✔ calibrated today, until "));
     EXPECT_THAT(says("calibrationFacts"), HasSubstr("simulated oscilloscope"));

@@ -53,6 +53,8 @@ TEST_F(CertificateEntries, WhatIsEnteredReachesTheRunAndTheLaboratorysIsKept) {
     const auto known = certificateDetails(next.certificateDetails, utcToday()).value();
     EXPECT_EQ(known.laboratory, wanted.laboratory);
     EXPECT_EQ(known.customer, "") << "the last customer is not that of the next item";
+    part.forget();
+    EXPECT_EQ(ofRun(), known) << "the laboratory's own stay";
 }
 
 TEST_F(CertificateEntries, ADayThatCannotBeIsSaidAndNothingIsKept) {
