@@ -41,7 +41,7 @@ struct SessionReader::State {
     std::string head;
     Instant lastAt{0};
     bool closed = false;
-    bool damaged = false;  // opened to read what can be read
+    bool damaged = false;                                                           // opened to read what can be read
     mutable std::map<std::string, std::vector<std::int64_t>, std::less<>> fewRows;  // by kind, from findFewRows()
     mutable std::int64_t foundTo = 0;                                               // the last row it has seen
 
@@ -187,7 +187,7 @@ struct SessionReader::State {
     [[nodiscard]] Result<void> forEachChunk(const SessionStreamInfo& info, const char* order,
                                             const std::function<bool(const ChunkHead&, const SampleBlock&)>& visit,
                                             std::int64_t each = 1) const {
-        if (damaged) return forEachReadableChunk(info, visit);
+        if (damaged) return forEachReadableChunk(info, visit, each);
         auto rows = source.database().prepare(
             fmt::format("SELECT e.seq, e.body, c.stamps, c.data FROM chunks c JOIN entries e ON e.seq = c.seq "
                         "WHERE c.stream=? AND c.idx % ?=0 ORDER BY c.idx {}",
@@ -211,12 +211,14 @@ struct SessionReader::State {
 
     /// Reads the chunks of a damaged session by their rows, and leaves out those that are not what was recorded.
     [[nodiscard]] Result<void> forEachReadableChunk(
-        const SessionStreamInfo& info, const std::function<bool(const ChunkHead&, const SampleBlock&)>& visit) const {
+        const SessionStreamInfo& info, const std::function<bool(const ChunkHead&, const SampleBlock&)>& visit,
+        std::int64_t each) const {
         SampleBlock block;
+        std::int64_t found = 0;
         bool going = true;
         return forEach(kind::kChunk, [&](const SessionRow& row) {
             const auto chunk = parseChunkHead(dumpJson(row.body));
-            if (!going || !chunk || chunk->stream != info.id) return;
+            if (!going || !chunk || chunk->stream != info.id || found++ % each != 0) return;
             auto data = source.database().prepare("SELECT stamps, data FROM chunks WHERE seq=?");
             if (!data) return;
             data->bind(1, row.seq);
@@ -500,11 +502,17 @@ Result<StreamOutline> SessionReader::outline(int stream, std::uint64_t most) con
     if (!info) return failure(info);
     const auto columns = info->stream.columns.size();
     std::uint64_t samples = 0;
-    auto last = state_->forEachChunk(*info, "DESC", [&](const ChunkHead& head, const SampleBlock&) {
-        samples = head.firstSample + head.samples;
-        return false;
-    });
-    if (!last) return failure(last);
+    auto counted = state_->damaged
+                       ? state_->forEach(kind::kChunk,
+                                         [&](const SessionRow& row) {
+                                             const auto head = parseChunkHead(dumpJson(row.body));
+                                             if (head && head->stream == info->id) samples += head->samples;
+                                         })
+                       : state_->forEachChunk(*info, "DESC", [&](const ChunkHead& head, const SampleBlock&) {
+                             samples = head.firstSample + head.samples;
+                             return false;
+                         });
+    if (!counted) return failure(counted);
     StreamOutline outline;
     const auto kept = std::max<std::uint64_t>(1, most / columns);
     outline.oneIn = static_cast<std::int64_t>(samples / kept + (samples % kept != 0 || samples == 0 ? 1 : 0));

@@ -136,8 +136,12 @@ TEST(SessionStream, AnOutlineHasAboutTheValuesAskedForAndGapsBetween) {
     const auto reader = SessionReader::open(dir.path() / "s.tacto").value();
     const auto all = reader.samples(1).value();
     EXPECT_EQ(reader.outline(2, 1000).error().code, ErrorCode::NotFound);
+    const auto damaged = SessionReader::openDamaged(dir.path() / "s.tacto").value();
     for (const std::uint64_t most : {1U, 399U, 4000U, 20'000U, 39'999U, 40'001U, 1'000'000U}) {
         const auto outline = reader.outline(1, most).value();
+        const auto readable = damaged.outline(1, most).value();
+        EXPECT_EQ(readable.oneIn, outline.oneIn);
+        EXPECT_EQ(readable.samples.t_s, outline.samples.t_s) << "a damaged session needs no more memory";
         const auto& some = outline.samples;
         ASSERT_EQ(some.values.size(), 2 * some.samples());
         EXPECT_EQ(outline.oneIn > 1, most < all.values.size()) << most;

@@ -25,7 +25,7 @@ struct SessionCourse {
     std::vector<double> frame_s, roughness, pressure;
     std::vector<double> train_s, amplitude;
     QString unit;              ///< unit of the amplitudes, "V" or "mA"
-    std::int64_t oneIn = 1;    ///< of so many moments, frames hold one
+    std::int64_t oneIn = 1;    ///< of so many stretches, frames hold one
     std::size_t perTrain = 1;  ///< of so many trains, the largest amplitude is here
     [[nodiscard]] bool empty() const { return frame_s.empty() && train_s.empty(); }
 };

@@ -100,7 +100,7 @@ void SessionPreview::show(const ReadSession& session) {
         const auto& course = session.course;
         auto title = course.train_s.empty() ? tr("What the fingertip felt")
                                             : tr("What was felt, and the trains that were delivered");
-        if (course.oneIn > 1) title += tr("; of %1 moments felt, one is drawn").arg(course.oneIn);
+        if (course.oneIn > 1) title += tr("; of %1 stretches of what was felt, one is drawn").arg(course.oneIn);
         if (course.perTrain > 1) title += tr("; of %1 trains, the largest is drawn").arg(course.perTrain);
         title_->setText(title);
         return stack_->setCurrentWidget(course_);

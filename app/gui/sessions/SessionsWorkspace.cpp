@@ -241,7 +241,10 @@ void SessionsWorkspace::drawStream(int stream) {
         [this, info = *info](const Result<StreamOutline>& read) {
             if (!read) return say(qtext(read.error().message));
             details_->showStream(info, read->samples);
-            if (read->oneIn > 1) say(tr("The stream is long: of %1 moments, one is drawn.").arg(read->oneIn));
+            const bool stands = says_->text() == saidOfStream_;
+            saidOfStream_ =
+                read->oneIn > 1 ? tr("The stream is long: of %1 stretches, one is drawn.").arg(read->oneIn) : QString();
+            if (stands || read->oneIn > 1) say(saidOfStream_);
         });
 }
 

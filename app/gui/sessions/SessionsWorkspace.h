@@ -96,6 +96,7 @@ private:
     SessionList* list_;
     SessionDetails* details_;
     QLabel* says_;
+    QString saidOfStream_;  ///< goes when the next stream is drawn
     QProgressBar* progress_;
     QPushButton* cancel_;
     ActionButtons actions_;
