@@ -37,7 +37,8 @@ Result<ExportReport> exportWith(const WorkPort& port, const std::filesystem::pat
 
 ExportDialog::ExportDialog(std::filesystem::path session, QWidget* parent)
     : QDialog(parent), session_(std::move(session)) {
-    setWindowTitle(tr("Export a session"));
+    setWindowTitle(
+        tr("Export %1 of %2").arg(qtext(session_.filename().string()), qtext(session_.parent_path().string())));
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(heading(tr("Export %1").arg(qtext(session_.stem().string())), this));
     std::vector<std::pair<QString, QString>> formats;
@@ -84,8 +85,7 @@ QWidget* ExportDialog::buildButtons() {
     auto* row = rowIn(*holder);
     folder_ = pageButton(tr("&Show in folder"), "exportFolder", tr("Opens the folder that holds it."), holder);
     connect(folder_, &QPushButton::clicked, this, [this] {
-        const auto made = std::filesystem::path(place_->text().toStdString());
-        if (const auto why = openOnDesktop(qtext(made.parent_path().string())); !why.isEmpty()) says_->setText(why);
+        if (const auto why = openOnDesktop(qtext(made_.parent_path().string())); !why.isEmpty()) says_->setText(why);
     });
     folder_->hide();
     export_ = pageButton(tr("E&xport"), "exportBegin", tr("Verifies the session, then exports it."), holder);
@@ -159,6 +159,7 @@ void ExportDialog::ended(const Result<ExportReport>& done) {
     export_->setEnabled(true);
     progress_->hide();
     if (!done) return says_->setText(tr("Not exported: %1").arg(qtext(done.error().message)));
+    made_ = done->out;
     // What the format found out only while it wrote stands here too.
     holds_->setText(leftOutText(done->leftOut));
     std::uint64_t bytes = 0;

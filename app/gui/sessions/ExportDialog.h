@@ -39,6 +39,7 @@ private:
 
     const std::filesystem::path session_;
     std::shared_ptr<const ExportSource> source_;
+    std::filesystem::path made_;  ///< by the last export that succeeded
     FieldForm* form_;
     QLineEdit* place_ = nullptr;
     QPushButton* choose_ = nullptr;

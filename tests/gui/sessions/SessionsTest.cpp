@@ -182,7 +182,10 @@ TEST_F(Recorded, IsExportedByOneDialogThatSaysWhatBecomesOfIt) {
     place->setText(QString::fromStdString((folder.path() / "out.h5").string()));
     EXPECT_IN_TIME(comesTrue([&] { return faultsOf(*dialog).empty(); })) << faultsOf(*dialog);
     shot(*dialog, "export-dialog");
+    const gui::ExportDialog other(folder.path() / "another.tacto", &workspace);
+    EXPECT_NE(other.windowTitle(), dialog->windowTitle()) << "else it would be taken for this one";
     click(*begin);
+    EXPECT_FALSE(place->isEnabled());
     const auto* says = dialog->findChild<QLabel*>("exportSays");
     ASSERT_IN_TIME(comesTrue([&] { return says->text().startsWith("Exported:"); })) << says->text().toStdString();
     EXPECT_TRUE(folderButton->isVisible());
@@ -191,6 +194,9 @@ TEST_F(Recorded, IsExportedByOneDialogThatSaysWhatBecomesOfIt) {
     EXPECT_GT(std::filesystem::file_size(folder.path() / "out.h5"), 1000U);
     click(*begin);
     ASSERT_IN_TIME(comesTrue([&] { return says->text().contains("exists already"); })) << says->text().toStdString();
+    place->setText("/elsewhere/out.h5");
+    click(*folderButton);
+    EXPECT_THAT(says->text().toStdString(), HasSubstr(folder.path().string())) << "where it was exported to";
 }
 
 TEST_F(Recorded, ReplaysAsARecording) {
