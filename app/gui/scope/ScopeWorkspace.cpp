@@ -433,6 +433,7 @@ void ScopeWorkspace::sayCursors() {
 
 /// A record that is searched must stay.
 void ScopeWorkspace::goToMatch(int step) {
+    if (!model_.shown()) return tell({}, tr("No record is shown yet, so there is nothing to search."));
     if (running()) hold();
     const auto& panel = controls_->acquisition();
     search_.go(step, panel.trigger(), panel.triggersOnCurrent() ? "A" : "V");

@@ -85,6 +85,9 @@ TEST_F(Scope, NormalWaitsForItsTrigger) {
     ASSERT_IN_TIME(comes([&] { return controller.telemetry().at > at + std::chrono::seconds(4); }));
     EXPECT_EQ(scope.model().shown(), nullptr);
     EXPECT_THAT(status(), StartsWith("Waiting for a trigger at"));
+    QTest::keyClick(&scope.screen(), Qt::Key_F3);
+    EXPECT_THAT(status(), HasSubstr("nothing to search"));
+    EXPECT_TRUE(scope.running()) << "it still waits";
 }
 
 TEST_F(Scope, AnOscilloscopeThatIsUnpluggedWhileItWaitsSaysWhatHappenedAndGoesOnOnceItIsBack) {

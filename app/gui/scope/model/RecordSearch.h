@@ -17,8 +17,8 @@ class RecordSearch final : public QObject {
 public:
     /// Both arguments outlive this.
     RecordSearch(CapturePipe& pipe, ScopeModel& model) : pipe_(pipe), model_(model) {}
-    /// Goes to the next match (`step` 1) or the previous one (-1), from the one shown last or from the middle of the
-    /// screen. Searches first if record, trigger or unit changed. said() follows.
+    /// Does nothing without a record. Goes to the next match (`step` 1) or the previous one (-1), from the one shown
+    /// last or from the middle of the screen. Searches first if record, trigger or unit changed. said() follows.
     void go(int step, const SampleTrigger& trigger, const QString& unit);
     /// True if a match of the shown record is marked on the screen.
     [[nodiscard]] bool marks() const { return model_.trigger().moment_s().has_value() && shows(); }
