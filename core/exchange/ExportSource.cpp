@@ -1,6 +1,7 @@
 #include "core/exchange/ExportSource.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fmt/chrono.h>
 #include <map>
@@ -65,16 +66,41 @@ std::string plainName(std::string name) {
     return name.empty() ? "stream" : name;
 }
 
-/// Replaces a participant's code wherever a text says it.
+/// Replaces a participant's code wherever a text says it: with its hyphens or without, in capitals or not.
+void hide(const std::string& code, std::string& text) {
+    static constexpr std::string_view kInstead = "the participant";
+    const auto isSame = [](unsigned char a, unsigned char b) { return std::toupper(a) == std::toupper(b); };
+    auto plain = code;
+    std::erase(plain, '-');
+    for (const auto& said : {code, plain}) {
+        if (said.empty()) continue;
+        for (std::size_t from = 0;;) {
+            const auto begin = text.begin() + static_cast<std::ptrdiff_t>(from);
+            const auto at = std::search(begin, text.end(), said.begin(), said.end(), isSame);
+            if (at == text.end()) break;
+            from = static_cast<std::size_t>(at - text.begin());
+            text.replace(from, said.size(), kInstead);
+            from += kInstead.size();
+        }
+    }
+}
+
+/// The same for a value's texts and the names of its members.
 void hide(const std::string& code, json& value) {
     if (code.empty()) return;
-    if (value.is_structured()) {
+    if (value.is_object()) {
+        auto hidden = json::object();
+        for (auto& [key, each] : value.items()) {
+            std::string name = key;
+            hide(code, name);
+            hide(code, each);
+            hidden[name] = std::move(each);
+        }
+        value = std::move(hidden);
+    } else if (value.is_array()) {
         for (auto& each : value) hide(code, each);
     } else if (value.is_string()) {
-        auto& text = value.get_ref<std::string&>();
-        static constexpr std::string_view kInstead = "the participant";
-        for (auto at = text.find(code); at != text.npos; at = text.find(code, at + kInstead.size()))
-            text.replace(at, code.size(), kInstead);
+        hide(code, value.get_ref<std::string&>());
     }
 }
 
@@ -249,6 +275,7 @@ Result<void> ExportSource::State::readStreams() {
         const int which = ++kinds[stream.kind];
         stream.name = which == 1 ? stream.kind : fmt::format("{}-{}", stream.kind, which);
         stream.title = info.stream.name;
+        hide(code, stream.title);
         stream.channels = channelsOf(info.stream, stream.kind);
         stream.declaredRate_hz = info.stream.rate_hz > 0 ? info.stream.rate_hz : 0;
         stream.simulated = fromSensor;
@@ -266,8 +293,14 @@ Result<void> ExportSource::State::readRows() {
     auto eventRows = reader.events();
     if (!eventRows) return failure(eventRows);
     events = std::move(*eventRows);
-    for (auto& trial : trials) hide(code, trial.measured);
-    for (auto& event : events) hide(code, event.body);
+    for (auto& trial : trials) {
+        hide(code, trial.condition);
+        hide(code, trial.measured);
+    }
+    for (auto& event : events) {
+        hide(code, event.name);
+        hide(code, event.body);
+    }
     const auto found = reader.captures();
     if (!found) return failure(found);
     // A file is called after the script's own number of the capture, which its trial lists.
@@ -349,7 +382,8 @@ Result<void> ExportSource::State::describe() {
     for (const auto& stream : streams) described.push_back(streamJson(stream));
     const auto profile = parseJson(about.profileJson, "the profile of the session", kRowLimits);
     auto parameters = about.parameters;
-    if (reader.sealed() && parameters.is_object()) parameters.erase("participant");  // the code
+    const bool ofPerson = reader.sealed() || !code.empty();
+    if (ofPerson && parameters.is_object()) parameters.erase("participant");  // the code
     description = {{"session", name},
                    {"chain_head", reader.chainHead()},
                    {"wall_start", wallStart},
@@ -402,6 +436,7 @@ Result<ExportSource> ExportSource::open(const std::filesystem::path& session, st
     state->name = session.stem().string();
     state->version = version;
     state->code = code;
+    hide(state->code, state->name);
     state->wallStart = wallAtZero(state->reader.about());
     state->damaged = damaged;
     state->verified = std::move(*verified);
@@ -512,7 +547,14 @@ Result<void> ExportSource::forEachTrain(const std::function<Result<void>(const E
     TrainJoin join(std::move(refused), state_->simulated({Role::Stimulator, Role::Massager}));
     Result<void> went;
     auto read = state_->reader.forEachCommand([&](const SessionRow& row) {
-        if (went) went = join.take(row, visit);
+        if (!went) return;
+        if (state_->code.empty()) {
+            went = join.take(row, visit);
+        } else {
+            auto hidden = row;
+            hide(state_->code, hidden.body);
+            went = join.take(hidden, visit);
+        }
         if (went) went = state_->goOn();
     });
     if (!read) return read;
@@ -546,7 +588,10 @@ Result<void> ExportSource::forEachMoment(const std::function<Result<void>(const 
                         each.subject,
                         {{"verdict", each.verdict}, {"reasons", each.reasons}, {"results", each.results}}}});
     }
-    for (auto& moment : few) hide(state_->code, moment.row.details);
+    for (auto& moment : few) {
+        hide(state_->code, moment.row.name);
+        hide(state_->code, moment.row.details);
+    }
     std::ranges::sort(few, {}, &Moment::seq);
     auto next = few.begin();
     Result<void> went;
@@ -557,6 +602,7 @@ Result<void> ExportSource::forEachMoment(const std::function<Result<void>(const 
     auto read = reader.forEachCommand([&](const SessionRow& row) {
         flush(row.seq);
         ExportRow command{toSeconds(row.at), "command", row.name, row.body};
+        hide(state_->code, command.name);
         hide(state_->code, command.details);
         if (went) went = visit(command);
     });

@@ -334,9 +334,9 @@ private:
         return out;
     }
 
-    /// The pseudonym of a session with a person, else X.
+    /// The participant of a session outside a study, as that was given; else X: the code of a person leaves no study.
     [[nodiscard]] std::string patient() const {
-        auto code = ascii(textOr(source_.about().parameters, "participant"), 20);
+        auto code = ascii(textOr(valueOr(source_.description(), "parameters"), "participant"), 20);
         std::ranges::replace(code, ' ', '_');
         return code.empty() ? "X" : code;
     }
