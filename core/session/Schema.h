@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "core/base/Result.h"
 #include "core/session/Database.h"
@@ -32,6 +33,8 @@ inline constexpr int kSealedVersion = 3;
 /// The same tables with packed chunks, and annotations behind the end mark.
 inline constexpr int kPackedVersion = 4;
 inline constexpr int kNewestVersion = kPackedVersion;
+/// No recording has so many rows; counting beyond this could overflow.
+inline constexpr std::int64_t kLastSeq = std::int64_t{1} << 60;
 
 /// The kinds of `entries` rows.
 namespace kind {
@@ -48,6 +51,8 @@ inline constexpr const char* kVerdict = "verdict";
 inline constexpr const char* kLog = "log";
 inline constexpr const char* kEnd = "end";
 inline constexpr const char* kAnnotation = "annotation";  ///< the only kind of row after the end mark (SessionLabels.h)
+inline constexpr std::string_view kAll[] = {kAbout,       kStream, kChunk,   kEvent, kCommand, kTrial,     kCapture,
+                                            kMeasurement, kReport, kVerdict, kLog,   kEnd,     kAnnotation};
 }  // namespace kind
 
 /// Creates the tables, views and triggers, and sets application id and version.

@@ -64,33 +64,32 @@ struct SessionReader::State {
 
     using Wanted = std::function<bool(std::string_view name)>;
 
-    /// Calls `visit(SessionRow)` for every row of a kind that can be read in a damaged session.
+    /// Calls `visit(seq, kind, at, name, text)` for every row that can be read in a damaged session.
     template <class Visit>
-    [[nodiscard]] Result<void> forEachReadable(std::string_view kind, Visit& visit, const Wanted& wanted) const {
+    [[nodiscard]] Result<void> forEachReadable(const Visit& visit) const {
         for (std::int64_t after = 0;;) {
-            auto read = forEachAfter(after, kind, visit, wanted);
+            auto read = forEachAfter(after, visit);
             if (read || read.error().code != ErrorCode::ParseError) return read;
             const auto next = readableAfter(after);
             if (!next) return {};
             after = *next;
         }
     }
-    /// The same for rows behind row `after`, which becomes the last that was read.
+    /// The same for rows behind row `after`, which becomes the last that was read, of whatever kind: each row is read
+    /// once, however many cannot be.
     template <class Visit>
-    [[nodiscard]] Result<void> forEachAfter(std::int64_t& after, std::string_view kind, Visit& visit,
-                                            const Wanted& wanted) const {
-        auto rows =
-            source.database().prepare("SELECT seq, t_ns, name, body FROM entries WHERE kind=? AND seq>? ORDER BY seq");
+    [[nodiscard]] Result<void> forEachAfter(std::int64_t& after, const Visit& visit) const {
+        auto rows = source.database().prepare(
+            "SELECT seq, kind, t_ns, name, body FROM entries WHERE seq>? AND seq<=? ORDER BY seq");
         if (!rows) return failure(rows);
-        rows->bind(1, kind);
-        rows->bind(2, after);
+        rows->bind(1, after);
+        rows->bind(2, kLastSeq);
         for (;;) {
             auto more = rows->step();
             if (!more) return failure(more);
             if (!*more) return {};
             after = rows->integer(0);
-            auto found = row(after, kind, Instant(rows->integer(1)), rows->text(2), rows->text(3));
-            if (found && (!wanted || wanted(found->name))) visit(std::move(*found));
+            visit(after, rows->text(1), Instant(rows->integer(2)), rows->text(3), rows->text(4));
         }
     }
 
@@ -117,7 +116,14 @@ struct SessionReader::State {
     /// Calls `visit(SessionRow)` for every row of a kind whose name is `wanted`, if that is not empty.
     template <class Visit>
     [[nodiscard]] Result<void> forEach(std::string_view kind, Visit visit, const Wanted& wanted = {}) const {
-        if (damaged) return forEachReadable(kind, visit, wanted);
+        if (damaged) {
+            return forEachReadable(
+                [&](std::int64_t seq, std::string_view its, Instant at, std::string_view name, std::string_view text) {
+                    if (its != kind) return;
+                    auto found = row(seq, kind, at, name, text);
+                    if (found && (!wanted || wanted(found->name))) visit(std::move(*found));
+                });
+        }
         const bool many = kind == kind::kChunk || kind == kind::kCommand;
         auto rows = source.database().prepare(
             fmt::format("SELECT seq, t_ns, name, body FROM entries WHERE {}=? ORDER BY seq", many ? "kind" : "seq"));
@@ -149,13 +155,14 @@ struct SessionReader::State {
     }
 
     /// Finds the end of a damaged part behind row `after`: the least number behind which a row can be read. Returns
-    /// nothing if none can.
+    /// nothing if none can; what it returns is greater than `after`.
     [[nodiscard]] std::optional<std::int64_t> readableAfter(std::int64_t after) const {
         const auto readable = [&](std::int64_t from) -> std::optional<bool> {  // nothing: no rows are left
-            auto row =
-                source.database().prepare("SELECT t_ns, name, body FROM entries WHERE seq>? ORDER BY seq LIMIT 1");
+            auto row = source.database().prepare(
+                "SELECT t_ns, name, body FROM entries WHERE seq>? AND seq<=? ORDER BY seq LIMIT 1");
             if (!row) return false;
             row->bind(1, from);
+            row->bind(2, kLastSeq);
             const auto there = row->step();
             if (!there) return false;
             return *there ? std::optional(true) : std::nullopt;
@@ -254,12 +261,28 @@ struct SessionReader::State {
         return unpackOpenedChunk(chunk, columns, *opened, into);
     }
 
+    /// The streams, the first with id 1. Of a damaged session those that cannot be read have no columns: each keeps
+    /// its place, since the samples of the others go by theirs.
     [[nodiscard]] Result<std::vector<SessionStreamInfo>> declared() const {
         std::vector<SessionStreamInfo> streams;
-        auto read = forEach(kind::kStream, [&](const SessionRow& row) {
-            streams.push_back({static_cast<int>(streams.size()) + 1, streamFrom(row.body), 0,
+        const auto add = [&](SessionStream stream) {
+            streams.push_back({static_cast<int>(streams.size()) + 1, std::move(stream), 0,
                                std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()});
-        });
+        };
+        if (damaged) {
+            auto read = forEachReadable(
+                [&](std::int64_t seq, std::string_view its, Instant at, std::string_view name, std::string_view text) {
+                    const bool known = std::ranges::find(kind::kAll, its) != std::end(kind::kAll);
+                    if (known && its != kind::kStream) return;
+                    const auto found = row(seq, kind::kStream, at, name, text);
+                    auto stream = found ? streamFrom(found->body) : SessionStream{};
+                    // A row whose kind itself was altered is a stream's if it holds one.
+                    if (known || !stream.columns.empty()) add(std::move(stream));
+                });
+            if (!read) return failure(read);
+            return streams;
+        }
+        auto read = forEach(kind::kStream, [&](const SessionRow& row) { add(streamFrom(row.body)); });
         if (!read) return failure(read);
         for (const auto& each : streams) {
             if (each.stream.columns.empty()) {
@@ -275,7 +298,9 @@ struct SessionReader::State {
         if (id < 1 || static_cast<std::size_t>(id) > streams->size()) {
             return fail(ErrorCode::NotFound, "there is no stream {}; the session has {}", id, streams->size());
         }
-        return std::move((*streams)[static_cast<std::size_t>(id) - 1]);
+        auto& found = (*streams)[static_cast<std::size_t>(id) - 1];
+        if (found.stream.columns.empty()) return fail(ErrorCode::NotFound, "stream {} cannot be read", id);
+        return std::move(found);
     }
 };
 
@@ -309,8 +334,10 @@ Result<SessionReader> SessionReader::open(const std::filesystem::path& path, std
     if (!about) return failure(about);
     if (!found) return fail(ErrorCode::ParseError, "{} is damaged: its first row is missing", path.string());
     auto last = state->source.database().prepare(
-        "SELECT hash, kind, t_ns, seq, name, body FROM entries WHERE kind<>'annotation' ORDER BY seq DESC LIMIT 1");
+        "SELECT hash, kind, t_ns, seq, name, body FROM entries WHERE kind<>'annotation' AND seq<=? ORDER BY seq DESC "
+        "LIMIT 1");
     if (!last) return failure(last);
+    last->bind(1, kLastSeq);
     if (auto row = last->step(); !row) {
         if (damaged) return SessionReader(std::move(state));
         return failure(row);
@@ -454,6 +481,7 @@ Result<std::vector<SessionStreamInfo>> SessionReader::streams() const {
     if (auto open = state_->unlocked("the samples"); !open) return failure(open);
     auto streams = state_->declared();
     if (!streams) return streams;
+    std::erase_if(*streams, [](const SessionStreamInfo& info) { return info.stream.columns.empty(); });
     for (auto& info : *streams) {
         if (state_->damaged) {  // the number recorded, read or not, as far as is known
             auto counted = state_->forEach(kind::kChunk, [&](const SessionRow& row) {

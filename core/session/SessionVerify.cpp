@@ -25,9 +25,6 @@ constexpr std::size_t kMaxProblems = 40;
 /// So many bytes of samples are checked at once: passing each chunk alone to another thread would cost more.
 constexpr std::size_t kHandedOver = 1'000'000;
 
-/// No recording has so many rows; counting beyond this could overflow.
-constexpr std::int64_t kLastSeq = std::int64_t{1} << 60;
-
 std::optional<Digest> digestFrom(std::span<const std::byte> bytes) {
     Digest digest;
     if (bytes.size() != digest.size()) return std::nullopt;

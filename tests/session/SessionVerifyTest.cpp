@@ -1,3 +1,5 @@
+#include <limits>
+#include <map>
 #include <random>
 
 #include "core/session/Digest.h"
@@ -115,6 +117,74 @@ TEST_F(SessionVerify, FindsEachWayOfTampering) {
         EXPECT_EQ(report.status, SessionStatus::Damaged) << sql;
         EXPECT_NE(all(report).find(sentence), std::string::npos) << sql << "\n" << all(report);
     }
+}
+
+class DamagedSession : public SessionVerify {
+protected:
+    /// The samples of each stream by name, and how often a name is there.
+    [[nodiscard]] static std::map<std::string, SampleBlock> samplesOf(const SessionReader& reader) {
+        std::map<std::string, SampleBlock> all;
+        for (const auto& info : reader.streams().value())
+            EXPECT_TRUE(all.emplace(info.stream.name, reader.samples(info.id).value()).second) << info.stream.name;
+        return all;
+    }
+};
+
+TEST_F(DamagedSession, GivesSamplesUnderTheNameOfTheirStreamWhateverBecameOfAnother) {
+    const auto good = test::bytesOf(path_);
+    const std::string other = "roughness frames";
+    const auto recorded = samplesOf(*SessionReader::open(path_)).at(other);
+    std::vector<std::string> changes{"UPDATE entries SET body=replace(body, 'columns', 'colurns') WHERE seq=2"};
+    const auto flip = [&](const char* column, int at) {
+        const auto old = fmt::format("unicode(substr({},{},1))", column, at);
+        changes.push_back(
+            fmt::format("UPDATE entries SET {0}=substr({0},1,{1}-1)||char(({2}|1)-({2}&1))||substr({0},{1}+1) "
+                        "WHERE seq=2 AND kind='stream'",
+                        column, at, old));
+    };
+    for (int at = 1; at <= 6; ++at) flip("kind", at);
+    for (int at = 1; at <= 60; at += 3) flip("body", at);
+    for (const auto& change : changes) {
+        test::writeBytes(path_, good);
+        test::forge(path_, change);
+        ASSERT_EQ(verify().status, SessionStatus::Damaged) << change;
+        const auto reader = SessionReader::openDamaged(path_);
+        ASSERT_TRUE(reader) << change;
+        const auto read = samplesOf(*reader);
+        ASSERT_TRUE(read.contains(other)) << change;
+        EXPECT_TRUE(test::sameBits(read.at(other).t_s, recorded.t_s)) << change;
+        EXPECT_TRUE(test::sameBits(read.at(other).values, recorded.values)) << change;
+    }
+}
+
+TEST_F(DamagedSession, WithAbsurdRowNumbersIsReadToItsEnd) {
+    RecordProperty("hazard", "H10");
+    const auto row = [](std::int64_t seq, const char* kind, const std::string& body) {
+        return fmt::format("INSERT INTO entries VALUES({},'{}',0,'late','{}',NULL,zeroblob(32),zeroblob(32));", seq,
+                           kind, body);
+    };
+    const std::string torn(40'000, 'z');
+    constexpr auto kFar = std::int64_t{1} << 59, kMost = std::numeric_limits<std::int64_t>::max();
+    test::forge(path_, row(kFar, "log", "{}") + row(kFar + 2, "event", torn) + row(kFar + 7, "event", "{}") +
+                           row(kMost - 10, "event", "{}") + row(kMost, "event", torn));
+    auto bytes = test::bytesOf(path_);
+    const auto page = std::size_t{static_cast<unsigned char>(bytes.at(16))} << 8U;
+    ASSERT_GE(page, 512U);
+    int broken = 0;
+    for (std::size_t at = 0; at + page <= bytes.size(); at += page) {  // pages that go on with the text of a row
+        if (std::string_view(&bytes[at + 4], 200) != torn.substr(0, 200)) continue;
+        std::fill_n(&bytes[at], 4, '\x7f');
+        ++broken;
+    }
+    ASSERT_GT(broken, 2);
+    test::writeBytes(path_, bytes);
+    const auto reader = SessionReader::openDamaged(path_);
+    ASSERT_TRUE(reader) << reader.error().message;
+    std::vector<std::int64_t> events;
+    for (const auto& event : reader->events().value()) events.push_back(event.seq);
+    ASSERT_EQ(events.size(), 2U);
+    EXPECT_EQ(events.back(), kFar + 7);
+    EXPECT_EQ(samplesOf(*reader).size(), 2U);
 }
 
 // A recomputed chain is valid in itself; its head differs from the head in the report and so reveals the forgery.
