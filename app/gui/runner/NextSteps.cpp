@@ -105,7 +105,7 @@ void NextStepBar::show(const std::vector<NextStep>& steps) {
         if (step == NextStep::Session) makeQuiet(*button);
         connect(button, &QPushButton::clicked, this, [this, step] { emit chosen(step); });
         if (step != NextStep::Report) continue;
-        auto* more = add(tr("Save, print"), tr("Saves the report elsewhere, shows its folder, or prints it."), {});
+        auto* more = add(tr("Save"), tr("Saves the report elsewhere, shows its folder, or prints it."), {});
         more->setObjectName("reportMenu");
         auto* menu = new QMenu(more);
         connect(menu, &QMenu::aboutToShow, this, [this, menu] { emit reportMenuWanted(*menu); });
