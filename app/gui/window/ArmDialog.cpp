@@ -29,7 +29,7 @@ constexpr std::chrono::seconds kAnswerWithin =
 
 }  // namespace
 
-ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString& load, DriveSource again,
+ArmDialog::ArmDialog(BenchController& controller, Purpose purpose, const QString& load, const DriveCommand& again,
                      QWidget* parent)
     : QDialog(parent), controller_(controller), purpose_(purpose), asked_(controller.mark()), before_(again) {
     const auto open = controller.open();
@@ -116,16 +116,15 @@ void ArmDialog::addWhatIsArmed(QVBoxLayout& layout) {
 QPushButton* ArmDialog::addButtons(QVBoxLayout& layout) {
     const bool check = purpose_ == Purpose::CheckImpedance;
     auto* buttons = new QDialogButtonBox(this);
-    if (before_ != DriveSource::Off) {
+    if (before_.source != DriveSource::Off) {
         again_ = addConfirm(
-            before_ == DriveSource::Sensor ? tr("Arm and drive by fingertip") : tr("Arm and drive by hand"),
+            before_.source == DriveSource::Sensor ? tr("Arm and drive by fingertip") : tr("Arm and drive by hand"),
             "armAndDrive", tr("Second step: measures the load, arms, and drives as before the fault."), before_);
         buttons->addButton(again_, QDialogButtonBox::ActionRole);
     }
     arm_ = check ? addConfirm(tr("Check impedance"), "checkImpedance",
-                              tr("Second step: measures the load and ends disarmed."), DriveSource::Off)
-                 : addConfirm(tr("Arm output"), "armOutput", tr("Second step: measures the load and arms."),
-                              DriveSource::Off);
+                              tr("Second step: measures the load and ends disarmed."), {})
+                 : addConfirm(tr("Arm output"), "armOutput", tr("Second step: measures the load and arms."), {});
     buttons->addButton(arm_, QDialogButtonBox::ActionRole);
     auto* cancel = buttons->addButton(QDialogButtonBox::Cancel);
     cancel->setAutoDefault(false);
@@ -135,7 +134,8 @@ QPushButton* ArmDialog::addButtons(QVBoxLayout& layout) {
     return cancel;
 }
 
-QPushButton* ArmDialog::addConfirm(const QString& text, const char* name, const QString& tip, DriveSource drives) {
+QPushButton* ArmDialog::addConfirm(const QString& text, const char* name, const QString& tip,
+                                   const DriveCommand& drives) {
     auto* button = new ConfirmButton(text, this);
     button->setObjectName(name);
     button->setToolTip(tip);
@@ -174,21 +174,26 @@ QString ArmDialog::firstWords(DriveSource source, const std::optional<Command>& 
 void ArmDialog::sayFirst() {
     const auto telemetry = controller_.telemetry();
     auto text = firstWords(telemetry.driving, firstByHand(controller_, telemetry));
-    if (again_ != nullptr)
-        text = tr("“%1”: %2\n“%3”: %4")
-                   .arg(again_->text(), firstWords(before_, wouldByHand(controller_)), arm_->text(), text);
+    if (again_ != nullptr) {
+        const auto first = Encoder(controller_.profile().encoding).encode(before_.roughness, before_.pressure);
+        auto again = firstWords(before_.source, first ? std::optional(*first) : std::nullopt);
+        if (before_.source == DriveSource::Manual)
+            again += tr(" As before the fault: R %1, P %2.")
+                         .arg(decimalText(before_.roughness, 2), decimalText(before_.pressure, 2));
+        text = tr("“%1”: %2\n“%3”: %4").arg(again_->text(), again, arm_->text(), text);
+    }
     setTone(*first_, telemetry.driving == DriveSource::Off && again_ == nullptr ? Tone::Quiet : Tone::Warning);
     if (first_->text() != text) first_->setText(text);
 }
 
-void ArmDialog::confirm(DriveSource drives) {
+void ArmDialog::confirm(const DriveCommand& drives) {
     ArmRequest request;
     if (!massager_) request.load = load_->text().toStdString();
     request.operatorConfirmed = true;
     request.declaredLoadConfirmed = connected_->isChecked();
     request.confirmed = text_;
-    const auto& hand = controller_.hand();
-    if (drives != DriveSource::Off) controller_.drive(drives, hand.roughness, hand.pressure);
+    // If arming is refused or was stopped, the controller drops this drive.
+    if (drives.source != DriveSource::Off) controller_.drive(drives.source, drives.roughness, drives.pressure);
     if (purpose_ == Purpose::CheckImpedance)
         controller_.checkImpedance(request, asked_);
     else
@@ -223,7 +228,7 @@ void ArmQuestion::noteBench() {
     if (std::exchange(loadOf_, open->session) != open->session) load_ = knownLoad(open->about);
 }
 
-void ArmQuestion::ask(ArmDialog::Purpose purpose, DriveSource again) {
+void ArmQuestion::ask(ArmDialog::Purpose purpose, const DriveCommand& again) {
     const auto open = controller_.open();
     const bool live = controller_.activity() == Activity::Live && open;
     if (purpose == ArmDialog::Purpose::Arm && !live)

@@ -23,7 +23,8 @@ class ArmDialog final : public QDialog {
 public:
     enum class Purpose { Arm, CheckImpedance };
     /// `again`: what drove before a fault; unless it is Off, a second button arms and lets it drive again.
-    ArmDialog(BenchController& controller, Purpose purpose, const QString& load, DriveSource again, QWidget* parent);
+    ArmDialog(BenchController& controller, Purpose purpose, const QString& load, const DriveCommand& again,
+              QWidget* parent);
     /// The load that the operator declared, as typed.
     [[nodiscard]] QString load() const { return load_->text(); }
 
@@ -32,9 +33,9 @@ private:
     void addLoad(QVBoxLayout& layout, const QString& load);
     void addWhatIsArmed(QVBoxLayout& layout);
     QPushButton* addButtons(QVBoxLayout& layout);
-    QPushButton* addConfirm(const QString& text, const char* name, const QString& tip, DriveSource drives);
+    QPushButton* addConfirm(const QString& text, const char* name, const QString& tip, const DriveCommand& drives);
     void judge();
-    void confirm(DriveSource drives);
+    void confirm(const DriveCommand& drives);
     void sayFirst();
     [[nodiscard]] QString firstWords(DriveSource source, const std::optional<Command>& first) const;
 
@@ -49,7 +50,7 @@ private:
     QCheckBox* connected_;
     QPushButton* arm_;
     QPushButton* again_ = nullptr;
-    const DriveSource before_;
+    const DriveCommand before_;
     bool readsBack_ = true;
     bool massager_ = false;  // massagers have no load
 };
@@ -62,7 +63,7 @@ public:
     ArmQuestion(BenchController& controller, QWidget& window);
     /// Asks, as the first of the two steps. Another bench or profile makes the question void.
     /// `again`: as for ArmDialog.
-    void ask(ArmDialog::Purpose purpose, DriveSource again = DriveSource::Off);
+    void ask(ArmDialog::Purpose purpose, const DriveCommand& again = {});
 
 signals:
     /// Nothing can be armed or checked. `why` is a sentence that says what to do.

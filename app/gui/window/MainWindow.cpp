@@ -169,7 +169,7 @@ MainWindow::MainWindow(BenchController::MakeRegistry makeRegistry, std::function
     connect(arming_, &ArmQuestion::refused, banner_, &NoticeBanner::complain);
     connect(safety_, &SafetyBar::armRequested, this, &MainWindow::askToArm);
     connect(safety_, &SafetyBar::faultReset, arming_,
-            [this](DriveSource drove) { arming_->ask(ArmDialog::Purpose::Arm, drove); });
+            [this](const DriveCommand& drove) { arming_->ask(ArmDialog::Purpose::Arm, drove); });
     connect(safety_, &SafetyBar::detailsRequested, line_, &RecordingLine::showLog);
     connect(&controller_, &BenchController::changed, this, &MainWindow::showTitle);
     closing_ = new CloseQuestion(

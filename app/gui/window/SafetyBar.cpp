@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/gui/controller/FirstOutput.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/ExposureTable.h"
@@ -235,7 +236,10 @@ void SafetyBar::followReset(const Telemetry& telemetry) {
                         !controller_.stoppedSince(*resetAsked_) && fault_->mayArmNext();
     if (left) resetAsked_.reset();
     if (mayArm) emit faultReset(drove_);
-    if (telemetry.state != InterlockState::Faulted) drove_ = telemetry.driving;
+    if (telemetry.state == InterlockState::Faulted) return;
+    const bool byHand = telemetry.driving == DriveSource::Manual;
+    drove_ =
+        orderedByHand(controller_, telemetry).value_or(DriveCommand{byHand ? DriveSource::Off : telemetry.driving});
 }
 
 void SafetyBar::showState(const Telemetry& telemetry) {

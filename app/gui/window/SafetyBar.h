@@ -60,7 +60,7 @@ signals:
     void armRequested();
     /// The operator's reset succeeded, no stop came since, and the output may be armed again. `drove`: what drove it
     /// when the fault came.
-    void faultReset(tacto::DriveSource drove);
+    void faultReset(const tacto::DriveCommand& drove);
     void detailsRequested();  ///< the user wants to see the details of a fault
     void resumed();           ///< resumed by hand
 
@@ -115,7 +115,7 @@ private:
     bool factsFit_ = true;
     int pulse_ = 0;  ///< frames left of the flash for the last train
     std::optional<StopMark> resetAsked_;
-    DriveSource drove_ = DriveSource::Off;  // as of the last refresh without a fault
+    DriveCommand drove_;  // as of the last refresh without a fault
     InterlockState state_ = InterlockState::Disconnected;
     InterlockState shown_ = InterlockState::Disconnected;
 };

@@ -33,11 +33,11 @@ protected:
 TEST_F(FaultRecovery, TakesTwoPressesAndDrivesAsBefore) {
     RecordProperty("hazard", "H12");
     std::mt19937 random(4949);
-    for (const auto source : {DriveSource::Sensor, DriveSource::Manual}) {
+    for (const auto source : {DriveSource::Manual, DriveSource::Sensor}) {
         const bool lifts = std::bernoulli_distribution()(random);
         SCOPED_TRACE(lifts ? "open" : "short");
         ASSERT_NO_FATAL_FAILURE(openWith(std::string(lifts ? "open" : "short") + "@4s..5s"));
-        window.controller().setHand({DriveSource::Manual, 0.5, 1});
+        window.controller().setHand({DriveSource::Manual, 1, 1});  // older and larger than what drives
         ASSERT_NO_FATAL_FAILURE(faultsWhileDrivenBy(source));
         ASSERT_IN_TIME(comesTrue([this] { return toSeconds(window.controller().telemetry().at) > 5.2; }));
         EXPECT_EQ(shown("armAndDrive"), nullptr) << "nothing asks before the fault was acknowledged";
@@ -47,10 +47,17 @@ TEST_F(FaultRecovery, TakesTwoPressesAndDrivesAsBefore) {
         EXPECT_EQ(state(), InterlockState::Disarmed) << "a reset alone arms nothing";
         EXPECT_FALSE(shown("armAndDrive")->isDefault());
         EXPECT_TRUE(faultsOf(*shown("armAndDrive")->window()).empty()) << faultsOf(*shown("armAndDrive")->window());
+        if (source == DriveSource::Manual) {
+            const auto says = shown("armAndDrive")->window()->findChild<QLabel*>("firstOutput")->text();
+            EXPECT_TRUE(says.contains("R 0.50, P 1.00")) << says.toStdString();
+        }
         click(*shown("armAndDrive"));
         EXPECT_IN_TIME(comesTrue([&] { return window.controller().telemetry().trainsDelivered > before; }))
             << banner().toStdString();
         EXPECT_EQ(window.controller().telemetry().driving, source);
+        if (source == DriveSource::Manual) {
+            EXPECT_EQ(window.controller().lastDrive().roughness, 0.5) << "as before the fault";
+        }
         window.controller().close();
         ASSERT_IN_TIME(comesTrue([this] { return window.controller().activity() == gui::Activity::Closed; }));
     }
