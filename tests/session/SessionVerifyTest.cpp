@@ -124,7 +124,8 @@ protected:
     /// The samples of each stream by name, and how often a name is there.
     [[nodiscard]] static std::map<std::string, SampleBlock> samplesOf(const SessionReader& reader) {
         std::map<std::string, SampleBlock> all;
-        for (const auto& info : reader.streams().value())
+        const auto streams = reader.streams().value();
+        for (const auto& info : streams)
             EXPECT_TRUE(all.emplace(info.stream.name, reader.samples(info.id).value()).second) << info.stream.name;
         return all;
     }
@@ -181,7 +182,8 @@ TEST_F(DamagedSession, WithAbsurdRowNumbersIsReadToItsEnd) {
     const auto reader = SessionReader::openDamaged(path_);
     ASSERT_TRUE(reader) << reader.error().message;
     std::vector<std::int64_t> events;
-    for (const auto& event : reader->events().value()) events.push_back(event.seq);
+    const auto rows = reader->events().value();
+    for (const auto& event : rows) events.push_back(event.seq);
     ASSERT_EQ(events.size(), 2U);
     EXPECT_EQ(events.back(), kFar + 7);
     EXPECT_EQ(samplesOf(*reader).size(), 2U);
