@@ -1,7 +1,6 @@
 #include "core/exchange/ExportSource.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fmt/chrono.h>
 #include <map>
@@ -10,6 +9,7 @@
 #include "core/acquisition/StreamHealth.h"
 #include "core/base/Clock.h"
 #include "core/base/JsonText.h"
+#include "core/base/LocaleFreeText.h"
 #include "core/dsp/RoughnessFlags.h"
 #include "core/exchange/ExportTables.h"
 #include "core/session/Origin.h"
@@ -69,7 +69,7 @@ std::string plainName(std::string name) {
 /// Replaces a participant's code wherever a text says it: with its hyphens or without, in capitals or not.
 void hide(const std::string& code, std::string& text) {
     static constexpr std::string_view kInstead = "the participant";
-    const auto isSame = [](unsigned char a, unsigned char b) { return std::toupper(a) == std::toupper(b); };
+    const auto isSame = [](char a, char b) { return capital(a) == capital(b); };
     auto plain = code;
     std::erase(plain, '-');
     for (const auto& said : {code, plain}) {

@@ -165,9 +165,9 @@ TEST_F(DamagedSession, WithAbsurdRowNumbersIsReadToItsEnd) {
                            kind, body);
     };
     const std::string torn(40'000, 'z');
-    constexpr auto kFar = std::int64_t{1} << 59, kMost = std::numeric_limits<std::int64_t>::max();
-    test::forge(path_, row(kFar, "log", "{}") + row(kFar + 2, "event", torn) + row(kFar + 7, "event", "{}") +
-                           row(kMost - 10, "event", "{}") + row(kMost, "event", torn));
+    const auto far = std::int64_t{1} << 59, last = std::numeric_limits<std::int64_t>::max();
+    test::forge(path_, row(far, "log", "{}") + row(far + 2, "event", torn) + row(far + 7, "event", "{}") +
+                           row(last - 10, "event", "{}") + row(last, "event", torn));
     auto bytes = test::bytesOf(path_);
     const auto page = std::size_t{static_cast<unsigned char>(bytes.at(16))} << 8U;
     ASSERT_GE(page, 512U);
@@ -185,7 +185,7 @@ TEST_F(DamagedSession, WithAbsurdRowNumbersIsReadToItsEnd) {
     const auto rows = reader->events().value();
     for (const auto& event : rows) events.push_back(event.seq);
     ASSERT_EQ(events.size(), 2U);
-    EXPECT_EQ(events.back(), kFar + 7);
+    EXPECT_EQ(events.back(), far + 7);
     EXPECT_EQ(samplesOf(*reader).size(), 2U);
 }
 
