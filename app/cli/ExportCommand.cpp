@@ -36,9 +36,9 @@ void declareExport(QCommandLineParser& parser) {
     declarePassphrase(parser);
 }
 
-/// The study that a session file belongs to; empty if it belongs to none.
+/// The study that a session file belongs to, given without links; empty if it belongs to none.
 std::filesystem::path studyOf(const std::filesystem::path& session) {
-    const auto folder = std::filesystem::absolute(session).parent_path().parent_path();
+    const auto folder = session.parent_path().parent_path();
     return Study::isThere(folder) ? folder : std::filesystem::path();
 }
 
@@ -48,8 +48,11 @@ struct OpenedSeal {
 };
 /// Opens the seal of a study's session, and notes in the ledger that it leaves the study. Errors: as openStudy() and
 /// Study::part(); InvalidArgument for a place inside the study; Unsupported for data that may not leave it.
-Result<OpenedSeal> sealFor(const QCommandLineParser& parser, const std::filesystem::path& session,
+Result<OpenedSeal> sealFor(const QCommandLineParser& parser, const std::filesystem::path& given,
                            const std::filesystem::path& out) {
+    std::error_code error;
+    auto session = std::filesystem::weakly_canonical(given, error);
+    if (error) session = std::filesystem::absolute(given);
     const auto folder = studyOf(session);
     if (folder.empty()) return OpenedSeal{};
     const auto place = std::filesystem::absolute(out);

@@ -142,13 +142,13 @@ TEST(StudySessionExport, NeedsTheStudyAndSaysNoCode) {
         return ran;
     };
     study({"create", at("study"), "--title", "Four conditions", "--approval", "EC-17", "--from", "2026-01-01",
-           "--expires", "2099-12-31", "--consent-version", "2"});
+           "--expires", "2099-12-31", "--consent-version", "2", "--set", "blocks=1"});
     const auto code = jsonOf(study({"enrol", at("study"), "--virtual", "7"}))["code"].get<std::string>();
     study({"consent", at("study"), code, "--version", "2", "--date", "2026-11-20", "--by", "K. Beispiel"});
     // As a person's: by the code, which the session then keeps as a parameter.
     const auto ran = desk.run({"run", "pilot-identification", "--device", "sim:", "--out", at("study"), "--set",
-                               "participant=" + code, "--set", "blocks=1", "--operator", "beside " + code, "--seed",
-                               "3", "--passphrase-file", passphrase, "--json"});
+                               "participant=" + code, "--operator", "beside " + code, "--seed", "3",
+                               "--passphrase-file", passphrase, "--json"});
     ASSERT_EQ(ran.code, 0) << ran.err;
     const auto session = jsonOf(ran).at("session").get<std::string>();
     auto plain = code;
@@ -169,6 +169,16 @@ TEST(StudySessionExport, NeedsTheStudyAndSaysNoCode) {
         for (const auto& said : {code, plain}) EXPECT_EQ(bytes.find(said), bytes.npos) << said << " stands in " << file;
     }
     EXPECT_GT(exported, exportFormats().size());
+    // The study is found however its session is named.
+    fs::create_symlink(session, at("link.tacto"));
+    const auto folder = fs::path(session).parent_path(), file = fs::path(session).filename();
+    for (const auto& named :
+         {folder / "." / file, folder / ".." / folder.filename() / file, fs::path(at("link.tacto"))}) {
+        fs::remove_all(at("again"));
+        const auto done = desk.run(
+            {"export", named.string(), "--format", "csv", "--out", at("again"), "--passphrase-file", passphrase});
+        EXPECT_EQ(done.code, 0) << named << ": " << done.err;
+    }
     // Away from its study a sealed session opens for nobody.
     fs::copy_file(session, at("away.tacto"));
     expectRefused(desk.run({"export", at("away.tacto"), "--format", "csv", "--out", at("x")}), 3, {"sealed"});
