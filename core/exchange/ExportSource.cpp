@@ -12,6 +12,7 @@
 #include "core/base/LocaleFreeText.h"
 #include "core/dsp/RoughnessFlags.h"
 #include "core/exchange/ExportTables.h"
+#include "core/measure/CaptureFile.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
@@ -533,9 +534,9 @@ Result<void> ExportSource::forEachChunk(const ExportStream& stream,
 
 Result<std::optional<Capture>> ExportSource::capture(const ExportCapture& wanted) const {
     if (auto on = state_->goOn(1); !on) return failure(on);
+    if (state_->damaged && (!read || !checkWritable(*read))) return std::nullopt;
     auto read = state_->reader.capture(wanted.seq);
     if (read) return std::optional(std::move(*read));
-    if (state_->damaged) return std::nullopt;
     return failure(read);
 }
 

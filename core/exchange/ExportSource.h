@@ -164,7 +164,7 @@ public:
     /// Ends with the first error of `visit`, or Stopped.
     [[nodiscard]] Result<void> forEachChunk(const ExportStream& stream,
                                             const std::function<Result<void>(const SampleBlock&)>& visit) const;
-    /// Nothing if damage made it unreadable. Errors: Stopped.
+    /// Nothing if damage made it, or what is stated of it, unreadable. Errors: Stopped.
     [[nodiscard]] Result<std::optional<Capture>> capture(const ExportCapture& capture) const;
     /// The rows of one of this session's tables, in order.
     [[nodiscard]] Result<void> forEachRow(const ExportTable& table,
