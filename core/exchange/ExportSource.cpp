@@ -49,11 +49,8 @@ std::vector<ExportChannel> channelsOf(const SessionStream& stream, const std::st
     std::vector<ExportChannel> channels;
     std::set<std::string> names;
     for (const auto& column : stream.columns) {
-        auto name = kind == "frames" ? column : stream.columns.size() == 1 ? kind : kind + "_" + column;
-        for (int again = 2; !names.insert(name).second; ++again) {
-            name = name.substr(0, name.rfind('~')) + "~" + std::to_string(again);
-        }
-        channels.push_back({.name = name, .unit = unitOf(stream, column)});
+        const auto wanted = kind == "frames" ? column : stream.columns.size() == 1 ? kind : kind + "_" + column;
+        channels.push_back({.name = uniqueName(wanted, "~", names), .unit = unitOf(stream, column)});
     }
     return channels;
 }
@@ -266,15 +263,13 @@ Result<void> ExportSource::State::readStreams() {
     std::uint64_t samples = 0;
     for (const auto& info : *found) samples += info.samples;
     part(0.1, 0.3, samples);
-    std::map<std::string, int> kinds;  // how many there are; tables have their own names
-    for (const auto& table : {"trials", "trains", "events", "records"}) kinds[table] = 1;
+    std::set<std::string> taken{"trials", "trains", "events", "records"};  // tables have their own names
     const bool fromSensor = simulated({Role::Sensor});
     for (const auto& info : *found) {
         ExportStream stream;
         stream.id = info.id;
         stream.kind = plainName(info.stream.kind);
-        const int which = ++kinds[stream.kind];
-        stream.name = which == 1 ? stream.kind : fmt::format("{}-{}", stream.kind, which);
+        stream.name = uniqueName(stream.kind, "-", taken);
         stream.title = info.stream.name;
         hide(code, stream.title);
         stream.channels = channelsOf(info.stream, stream.kind);
@@ -314,13 +309,14 @@ Result<void> ExportSource::State::readRows() {
         std::ranges::sort(numbers);
     }
     std::map<int, std::size_t> count, next;
+    std::set<std::string> taken;
     for (const auto& info : *found) ++count[info.trial.value_or(0)];
     for (const auto& info : *found) {
         const int trial = info.trial.value_or(0);
         const auto& numbers = listed[trial];
         const auto at = next[trial]++;
         const auto number = numbers.size() == count[trial] ? numbers[at] : info.seq;
-        captures.push_back({.name = fmt::format("trial-{:04}-{:05}", trial, number),
+        captures.push_back({.name = uniqueName(fmt::format("trial-{:04}-{:05}", trial, number), "-", taken),
                             .seq = info.seq,
                             .trial = info.trial,
                             .at_s = toSeconds(info.at),
@@ -534,11 +530,11 @@ Result<void> ExportSource::forEachChunk(const ExportStream& stream,
 
 Result<std::optional<Capture>> ExportSource::capture(const ExportCapture& wanted) const {
     if (auto on = state_->goOn(1); !on) return failure(on);
-    if (state_->damaged && (!read || !checkWritable(*read))) return std::nullopt;
     auto read = state_->reader.capture(wanted.seq);
     if (read) return std::optional(std::move(*read));
     return failure(read);
 }
+    if (state_->damaged && (!read || !checkWritable(*read))) return std::nullopt;
 
 Result<void> ExportSource::forEachTrain(const std::function<Result<void>(const ExportTrain&)>& visit) const {
     std::vector<const SessionRow*> refused;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "core/base/JsonText.h"
@@ -12,6 +13,12 @@
 #include "core/results/ResultRecord.h"
 
 namespace tacto {
+
+std::string uniqueName(const std::string& wanted, std::string_view between, std::set<std::string>& taken) {
+    auto name = wanted;
+    for (int again = 2; !taken.insert(name).second; ++again) name = fmt::format("{}{}{}", wanted, between, again);
+    return name;
+}
 
 namespace {
 
@@ -75,10 +82,11 @@ ExportCell cellOf(const ResultColumn& column, const json& value) {
     return plainNumber(value);
 }
 
-/// Returns the column of a member: its own name, unless a column of every trial has that.
-std::string trialColumn(const std::string& member) {
-    static constexpr std::array<std::string_view, 4> kOfEveryTrial{"time_s", "trial", "condition", "simulated"};
-    return std::ranges::find(kOfEveryTrial, member) == kOfEveryTrial.end() ? member : "measured_" + member;
+/// Returns the column of a member, which joins those taken: its own name, unless a column of every trial has that.
+std::string trialColumn(const std::string& member, std::set<std::string>& taken) {
+    static constexpr std::array<std::string_view, 5> kOfEveryTrial{"time", "time_s", "trial", "condition", "simulated"};
+    const bool own = std::ranges::find(kOfEveryTrial, member) == kOfEveryTrial.end();
+    return uniqueName(own ? member : "measured_" + member, "~", taken);
 }
 
 /// The units that the tables of a kind state of their columns.
@@ -106,8 +114,9 @@ ExportTable trialTable(const std::vector<SessionTrial>& trials, std::string_view
         "Trials",
         {number(kTimeTitle, "time_s", "s"), number("Trial, from 1", "trial"), text("Condition", "condition")}};
     const auto described = describedUnits(kind);
+    std::set<std::string> taken;
     for (const auto& [name, isText] : members) {
-        ResultColumn column{name, trialColumn(name), isText ? As::Text : As::Number, unitInName(name)};
+        ResultColumn column{name, trialColumn(name, taken), isText ? As::Text : As::Number, unitInName(name)};
         if (const auto known = described.find(name); known != described.end()) column.unit = known->second;
         table.columns.push_back(std::move(column));
     }
@@ -118,10 +127,9 @@ ExportTable trialTable(const std::vector<SessionTrial>& trials, std::string_view
 void trialCells(const SessionTrial& trial, bool simulated, const ExportTable& table, std::vector<ExportCell>& cells) {
     cells = {toSeconds(trial.at), double(trial.number), trial.condition};
     std::map<std::string, const json*> members;
-    eachMember(trial.measured, "",
-               [&](const std::string& name, const json& value) { members[trialColumn(name)] = &value; });
+    eachMember(trial.measured, "", [&](const std::string& name, const json& value) { members[name] = &value; });
     for (std::size_t c = 3; c + 1 < table.columns.size(); ++c) {
-        const auto found = members.find(table.columns[c].at);
+        const auto found = members.find(table.columns[c].title);  // the member, as trialTable() has it
         cells.push_back(cellOf(table.columns[c], found == members.end() ? json() : *found->second));
     }
     cells.emplace_back(simulated ? 1.0 : 0.0);

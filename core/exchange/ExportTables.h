@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,6 +15,9 @@
 #include "core/session/SessionReader.h"
 
 namespace tacto {
+
+/// Returns a name that is not taken yet, and takes it: the one wanted, else with "~2", "~3", ... if "~" stands between.
+[[nodiscard]] std::string uniqueName(const std::string& wanted, std::string_view between, std::set<std::string>& taken);
 
 /// The columns of trials.csv: of every number and text measured, in the order of their names. Units are those that
 /// the tables of `kind` (core/kinds) state, else they are read from the name's end.

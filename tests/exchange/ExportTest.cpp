@@ -4,6 +4,8 @@
 #include <csignal>
 #include <fstream>
 #include <gmock/gmock.h>
+#include <map>
+#include <set>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
@@ -261,6 +263,73 @@ TEST_P(Exports, LeaveOutACaptureWhoseDescriptionIsDamaged) {
             EXPECT_EQ(source->capture(each).value().has_value(), !first) << change;
         }
     }
+}
+
+/// Writes a session whose members, streams, channels and captures have names that formats need for something else.
+fs::path writeSessionOfHardNames(const fs::path& folder) {
+    const auto path = folder / "names.tacto";
+    VirtualClock clock;
+    auto about = someAbout();
+    about.devices = {{"pulsepal:/dev/ttyACM0", "stimulator", "Pulse Pal", "1", "1", false},
+                     {"sim:sensor", "sensor", "Simulated sensor", "2", "1", true}};
+    auto session = SessionWriter::create(path, about, clock).value();
+    for (const char* kind : {"force", "force", "force-2", "trials"}) {
+        const auto id = session->addStream(SessionStream{kind, kind, "N", {"force"}, 100});
+        EXPECT_TRUE(session->append(*id, ramp(0, 100, 50, 1)));
+    }
+    const auto id = session->addStream(SessionStream{"frames", "frames", "", {"time", "a/b", "a_b", "a_b~2"}, 100});
+    EXPECT_TRUE(session->append(*id, ramp(0, 100, 50, 4)));
+    EXPECT_TRUE(session->command(clock.now(), "train", {{"amplitude_v", 10.0}}));
+    EXPECT_TRUE(session->command(clock.now(), "delivered", {{"amplitude_v", 10.0}}));
+    EXPECT_TRUE(session->event(clock.now(), "armed", {{"load", "1 kohm"}}));
+    const auto trial = session->trial(clock.now(), "rough",
+                                      {{"time", 1},
+                                       {"a/b", 2},
+                                       {"a_b", 3},
+                                       {"measured_trial", 4},
+                                       {"trial", 5},
+                                       {"simulated", 6},
+                                       {"captures", {7, 7}}});
+    Capture capture;
+    capture.rate_hz = 1e6;
+    capture.channels = {{"time", "V", {1, 2}, -50, 50, 0.4, 0.01, 0.2}, {"a/b", "V", {1, 2}, -50, 50, 0.4, 0.01, 0.2}};
+    for (int i = 0; i < 2; ++i) EXPECT_TRUE(session->capture(clock.now(), capture, *trial));
+    EXPECT_TRUE(session->close());
+    return path;
+}
+
+TEST_P(Exports, KeepWhateverItIsCalled) {
+    const auto path = writeSessionOfHardNames(folder_.path());
+    const auto done = exported(path, GetParam(), out());
+    ASSERT_TRUE(done) << done.error().message;
+    std::set<std::string> files;
+    for (const auto& file : done->files) EXPECT_TRUE(files.insert(file.path).second) << file.path;
+}
+
+TEST(ExportSource, GivesEachThingANameOfItsOwn) {
+    const ScratchDir folder;
+    const auto source = ExportSource::open(writeSessionOfHardNames(folder.path()), nullptr, {}, "0.0.0-test");
+    ASSERT_TRUE(source) << source.error().message;
+    std::vector<std::string> streams;
+    for (const auto& stream : source->streams()) streams.push_back(stream.name);
+    EXPECT_THAT(streams, ElementsAre("force", "force-2", "force-2-2", "trials-2", "frames"));
+    ASSERT_EQ(source->captures().size(), 2U);
+    EXPECT_NE(source->captures()[0].name, source->captures()[1].name);
+    std::map<std::string, double> cells;
+    const auto& columns = source->trials().columns;
+    ASSERT_TRUE(source->forEachRow(source->trials(), [&](std::span<const ExportCell> row) -> Result<void> {
+        for (std::size_t c = 0; c < row.size(); ++c) {
+            const auto* number = std::get_if<double>(&row[c]);
+            EXPECT_TRUE(cells.emplace(columns[c].at, number == nullptr ? kNaN : *number).second) << columns[c].at;
+        }
+        return {};
+    }));
+    // Each value is there once, whatever its column is called.
+    for (const int value : {2, 3, 4, 5, 6}) {
+        EXPECT_EQ(std::ranges::count_if(cells, [&](const auto& cell) { return cell.second == value; }), 1) << value;
+    }
+    EXPECT_EQ(cells.at("measured_time"), 1);
+    EXPECT_EQ(cells.at("trial"), 1);
 }
 
 TEST_P(Exports, MarkASessionThatWasNotClosed) {

@@ -1,8 +1,10 @@
 #include "core/exchange/hdf5/Hdf5Export.h"
 
 #include <array>
+#include <set>
 
 #include "core/base/JsonText.h"
+#include "core/exchange/ExportTables.h"
 #include "core/exchange/hdf5/Hdf5File.h"
 #include "core/measure/CaptureDescription.h"
 
@@ -24,6 +26,15 @@ private:
     Result<void> all_;
 };
 
+/// The names of the data sets of a group, whose first is `time`.
+class SetNames {
+public:
+    [[nodiscard]] std::string add(const std::string& name) { return uniqueName(hdf5Name(name), "~", taken_); }
+
+private:
+    std::set<std::string> taken_{"time"};
+};
+
 Result<void> describeSet(Hdf5Object& set, std::string_view unit, std::string_view title, bool simulated) {
     return (Steps() << set.attribute("units", unit) << set.attribute("long_name", title)
                     << set.attribute("simulated", simulated))
@@ -37,10 +48,11 @@ Result<void> writeStream(const ExportSource& source, const ExportStream& stream,
     steps << group->attribute("long_name", stream.title) << group->attribute("rate_hz", stream.rate_hz)
           << group->attribute("regular", stream.regular) << group->attribute("gaps", double(stream.gapCount))
           << group->attribute("simulated", stream.simulated);
+    SetNames names;
     std::vector<Hdf5Column> columns;
     columns.emplace_back(group->id(), "time", Hdf5Column::Type::Double, stream.samples);
     for (const auto& channel : stream.channels)
-        columns.emplace_back(group->id(), channel.name, Hdf5Column::Type::Double, stream.samples);
+        columns.emplace_back(group->id(), names.add(channel.name), Hdf5Column::Type::Double, stream.samples);
     const auto width = stream.channels.size();
     steps << source.forEachChunk(stream, [&](const SampleBlock& block) -> Result<void> {
         Steps added;
@@ -71,9 +83,10 @@ Result<void> writeTable(const ExportSource& source, const ExportTable& table, Hd
     if (!group) return failure(group);
     Steps steps;
     steps << group->attribute("long_name", table.title);
+    SetNames names;
     std::vector<Hdf5Column> columns;
     for (const auto& column : table.columns) {
-        columns.emplace_back(group->id(), columns.empty() ? "time" : column.at,
+        columns.emplace_back(group->id(), columns.empty() ? "time" : names.add(column.at),
                              ExportTable::holdsText(column) ? Hdf5Column::Type::Text : Hdf5Column::Type::Double);
     }
     steps << source.forEachRow(table, [&](std::span<const ExportCell> cells) {
@@ -112,9 +125,10 @@ Result<void> writeCapture(const ExportSource& source, const Capture& capture, co
     auto scale = time.end();
     if (!scale) return failure(scale);
     steps << describeSet(*scale, "s", "Time since the session's start", capture.simulated);
+    SetNames names;
     std::vector<Hdf5Object> sets;
     for (const auto& channel : capture.channels) {
-        Hdf5Column column(group->id(), channel.name, Hdf5Column::Type::Float, samples);
+        Hdf5Column column(group->id(), names.add(channel.name), Hdf5Column::Type::Float, samples);
         steps << column.add(channel.samples);
         if (!steps) return steps.result();
         auto set = column.end();
