@@ -471,6 +471,9 @@ bool ExportSource::closed() const noexcept { return state_->reader.closed(); }
 bool ExportSource::damaged() const noexcept { return state_->damaged; }
 const std::vector<std::string>& ExportSource::problems() const noexcept { return state_->verified.problems; }
 bool ExportSource::simulated() const noexcept { return state_->reader.about().simulated; }
+bool ExportSource::simulated(const ExportTable& table) const noexcept {
+    return &table == &trains() ? state_->simulated({Role::Stimulator, Role::Massager}) : simulated();
+}
 const std::vector<std::string>& ExportSource::marks() const noexcept { return state_->marks; }
 std::string ExportSource::marksText() const { return fmt::format("{}", fmt::join(state_->marks, "; ")); }
 const json& ExportSource::description() const noexcept { return state_->description; }
@@ -531,17 +534,17 @@ Result<void> ExportSource::forEachChunk(const ExportStream& stream,
 Result<std::optional<Capture>> ExportSource::capture(const ExportCapture& wanted) const {
     if (auto on = state_->goOn(1); !on) return failure(on);
     auto read = state_->reader.capture(wanted.seq);
+    if (state_->damaged && (!read || !checkWritable(*read))) return std::nullopt;
     if (read) return std::optional(std::move(*read));
     return failure(read);
 }
-    if (state_->damaged && (!read || !checkWritable(*read))) return std::nullopt;
 
 Result<void> ExportSource::forEachTrain(const std::function<Result<void>(const ExportTrain&)>& visit) const {
     std::vector<const SessionRow*> refused;
     for (const auto& event : state_->events) {
         if (event.name == "refused") refused.push_back(&event);
     }
-    TrainJoin join(std::move(refused), state_->simulated({Role::Stimulator, Role::Massager}));
+    TrainJoin join(std::move(refused), simulated(trains()));
     Result<void> went;
     auto read = state_->reader.forEachCommand([&](const SessionRow& row) {
         if (!went) return;
@@ -611,7 +614,7 @@ Result<void> ExportSource::forEachMoment(const std::function<Result<void>(const 
 Result<void> ExportSource::forEachRow(const ExportTable& table,
                                       const std::function<Result<void>(std::span<const ExportCell>)>& visit) const {
     std::vector<ExportCell> cells;
-    const double simulated = state_->reader.about().simulated ? 1 : 0;
+    const double simulated = this->simulated(table) ? 1 : 0;
     if (&table == &trials()) {
         for (const auto& trial : state_->trials) {
             trialCells(trial, simulated != 0, table, cells);

@@ -143,6 +143,8 @@ public:
     [[nodiscard]] const std::vector<std::string>& problems() const noexcept;  ///< what is damaged, in sentences
     /// Whether any device was simulated. Streams, captures and trains say it of themselves.
     [[nodiscard]] bool simulated() const noexcept;
+    /// Whether what a table's rows tell of was simulated, as its last column says.
+    [[nodiscard]] bool simulated(const ExportTable& table) const noexcept;
     /// What every file is marked with: "simulated", "uncalibrated R", "ended without closing", ...
     [[nodiscard]] const std::vector<std::string>& marks() const noexcept;
     [[nodiscard]] std::string marksText() const;  ///< joined by "; "

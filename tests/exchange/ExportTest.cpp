@@ -332,6 +332,24 @@ TEST(ExportSource, GivesEachThingANameOfItsOwn) {
     EXPECT_EQ(cells.at("trial"), 1);
 }
 
+TEST(ExportSource, SaysOfATableWhatItsRowsSay) {
+    RecordProperty("hazard", "H9");
+    const ScratchDir folder;
+    const auto source = ExportSource::open(writeSessionOfHardNames(folder.path()), nullptr, {}, "0.0.0-test");
+    ASSERT_TRUE(source) << source.error().message;
+    for (const auto* table : source->tables()) {
+        std::size_t rows = 0;
+        ASSERT_TRUE(source->forEachRow(*table, [&](std::span<const ExportCell> row) -> Result<void> {
+            ++rows;
+            EXPECT_EQ(std::get<double>(row.back()), source->simulated(*table) ? 1 : 0) << table->name;
+            return {};
+        }));
+        EXPECT_TRUE(rows > 0 || table == &source->records()) << table->name;
+    }
+    EXPECT_FALSE(source->simulated(source->trains()));
+    EXPECT_TRUE(source->simulated(source->events()));
+}
+
 TEST_P(Exports, MarkASessionThatWasNotClosed) {
     RecordProperty("hazard", "H8");
     const auto path = folder_.path() / "crashed.tacto";

@@ -101,7 +101,7 @@ Result<void> writeTable(const ExportSource& source, const ExportTable& table, Hd
         auto set = columns[c].end();
         if (!set) return failure(set);
         const auto& column = table.columns[c];
-        steps << describeSet(*set, column.unit.empty() ? "1" : column.unit, column.title, source.simulated());
+        steps << describeSet(*set, column.unit.empty() ? "1" : column.unit, column.title, source.simulated(table));
         sets.push_back(std::move(*set));
     }
     steps << Hdf5File::onScale(sets.front(), std::span(sets).subspan(1));
