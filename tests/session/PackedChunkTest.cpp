@@ -157,6 +157,22 @@ TEST(PackedColumns, ThatStateAHugeSizeAreRefusedBeforeMemoryIsTaken) {
     EXPECT_FALSE(unpackColumns({}, 1, ~std::size_t{0}, true, back));
 }
 
+/// packed-chunk.f64 holds 120 stamps, and then the values of three channels on grids whose base and step are rounded.
+TEST(PackedColumns, ThatAnotherBuildPackedHaveTheSameBits) {
+    RecordProperty("hazard", "H8");
+    const auto folder = test::sourceDir() / "tests/session";
+    const auto packed = test::bytesOf(folder / "packed-chunk.bin"), plain = test::bytesOf(folder / "packed-chunk.f64");
+    constexpr std::size_t kSamples = 120, kChannels = 3;
+    std::vector<double> wanted(kSamples * (1 + kChannels));
+    ASSERT_EQ(plain.size(), wanted.size() * sizeof(double));
+    std::memcpy(wanted.data(), plain.data(), plain.size());
+    SampleBlock back;
+    const auto done = unpackColumns(std::as_bytes(std::span(packed)), kSamples, kChannels, true, back);
+    ASSERT_TRUE(done) << done.error().message;
+    back.t_s.insert(back.t_s.end(), back.values.begin(), back.values.end());
+    EXPECT_TRUE(sameBits(back.t_s, wanted));
+}
+
 class PackedSession : public testing::Test {
 protected:
     void SetUp() override { RecordProperty("hazard", "H8"); }
