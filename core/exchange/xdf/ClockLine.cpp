@@ -53,11 +53,12 @@ ClockLine fitClock(std::span<const ClockOffset> offsets) {
     for (const auto& offset : known) reach = std::max(reach, std::abs(offset.at_s - line.at_s));
     if (!(reach > 0) || !std::isfinite(reach)) return line;
     // Weighted least squares, again and again with the weights of the last residuals. x is scaled to -1..1.
-    constexpr int kMaxRounds = 500;
+    constexpr std::size_t kMaxRounds = 500, kMinRounds = 10, kMaxSteps = 50'000'000;  // of rounds times offsets
+    const auto rounds = std::clamp(kMaxSteps / known.size(), kMinRounds, kMaxRounds);
     constexpr double kSettled_s = 1e-9;
     const double level = line.offset_s;  // keeps the sums small
     double constant = 0, slope = 0;
-    for (int round = 0; round < kMaxRounds; ++round) {
+    for (std::size_t round = 0; round < rounds; ++round) {
         double w = 0, wx = 0, wxx = 0, wy = 0, wxy = 0;
         for (const auto& offset : known) {
             const double x = (offset.at_s - line.at_s) / reach, y = offset.offset_s - level;

@@ -26,6 +26,8 @@ struct ClockLine {
 /// median without drift; none gives 0. Offsets that are not finite are left out.
 [[nodiscard]] ClockLine fitClock(std::span<const ClockOffset> offsets);
 
+// The offsets of both functions are finite, and so are their differences.
+
 /// Returns the index of the first offset after which the stream's clock was reset (its computer was restarted): the
 /// time of the next offset goes back, or both time and offset step out of all proportion (by more than 5 s and 5 median
 /// deviations, and 1 s and 10), as pyxdf has it.

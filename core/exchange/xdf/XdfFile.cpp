@@ -124,6 +124,7 @@ public:
 
 private:
     static constexpr std::size_t kShownDamages = 3;
+    static constexpr double kMaxClock_s = 1e15;  // 30 million years; differences of such offsets are finite
 
     template <class... Args>
     void warn(fmt::format_string<Args...> text, Args&&... args) {
@@ -177,7 +178,8 @@ private:
             const auto at = content.number<double>();
             const auto offset = content.number<double>();
             if (!at || !offset || content.left() > 0) return false;
-            stream.offsets.push_back({*at, *offset});
+            const auto sound = [](double clock_s) { return std::abs(clock_s) < kMaxClock_s; };  // false for NaN
+            if (sound(*at) && sound(*offset)) stream.offsets.push_back({*at, *offset});
             return true;
         }
         pugi::xml_document document;

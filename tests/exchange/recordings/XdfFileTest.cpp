@@ -104,6 +104,30 @@ TEST(XdfFile, TheStrayEndOfAnOutletIsLeftOut) {  // labstreaminglayer/pylsl#67
     EXPECT_NEAR(file.streams.at(0).samples.t_s.back(), 1.49, 1e-9);
 }
 
+TEST(XdfFile, OffsetsThatAreNoTimesHideNoReset) {
+    const double strange[] = {NAN, INFINITY, -INFINITY, 1e308, -1e308};
+    for (const bool reset : {false, true}) {
+        std::string offsets;
+        for (int i = 0; i < 40; ++i) {
+            offsets += reset && i >= 20 ? xdfOffset(7, 1000 + 5.0 * i, 900) : xdfOffset(7, 5.0 * i, 1);
+            offsets += xdfOffset(7, strange[i % 5], i % 2 == 0 ? strange[i % 3] : 1) +
+                       xdfOffset(7, 5.0 * i + 1, strange[(i + 2) % 5]);
+        }
+        const auto file = readMade(kXdfBegin + kHeader + samplesAt(0) + offsets);
+        const auto& stream = file.streams.at(0);
+        EXPECT_THAT(stream.obstacle, reset ? HasSubstr("reset after 96.000 s") : HasSubstr(""));
+        EXPECT_EQ(stream.obstacle.empty(), !reset);
+        if (!reset) EXPECT_NEAR(stream.samples.t_s.front(), 1, 1e-9);
+    }
+}
+
+TEST(XdfFile, TheLineOfVeryManyOffsetsIsFoundInFewRounds) {
+    std::vector<xdf::ClockOffset> offsets;
+    for (int i = 0; i < 2'000'000; ++i) offsets.push_back({i * 0.1, 3 + 1e-6 * i + (i % 20 == 7 ? 0.05 : 0)});
+    const auto line = xdf::fitClock(offsets);
+    for (const double t : {0.0, 1e5, 2e5}) EXPECT_NEAR(line.onRecorder(t) - t, 3 + 1e-5 * t, 1e-4);
+}
+
 TEST(XdfFile, FewOffsetsOfABusyNetworkDoNotTurnTheLine) {
     std::vector<xdf::ClockOffset> offsets;
     for (int i = 0; i < 100; ++i) {
