@@ -161,9 +161,19 @@ std::uint64_t Standstill::History::push(std::uint32_t number, double value) noex
 }
 
 void Standstill::compare(const double* values) noexcept {
+    // Numbers begin anew before 32 bits overflow, as of the samples just before, which become 1 to kPeriods.
+    constexpr std::uint32_t kNumbers = 0xFFFF'FFFF / kPeriods * kPeriods - kPeriods;
+    const auto number = static_cast<std::uint32_t>(kPeriods + 1 + seen_ % kNumbers);
+    if (number == kPeriods + 1 && seen_ > 0) {
+        const auto renumber = [](std::uint32_t& at) { at = at > kNumbers ? at - kNumbers : 0; };
+        for (auto& history : before_) {
+            std::ranges::for_each(history.earlier, renumber);
+            std::ranges::for_each(history.newest, renumber);
+        }
+    }
     std::uint64_t all = ~std::uint64_t{0};
     for (std::size_t c = 0; c < channels_; ++c) {
-        const auto same = before_[c].push(static_cast<std::uint32_t>(seen_ + 1), values[c]);
+        const auto same = before_[c].push(number, values[c]);
         if (eachChannel_) countAll(1 + c, same);
         all &= same;
     }

@@ -1,3 +1,4 @@
+#include <bit>
 #include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 
 #include "core/acquisition/StreamHealth.h"
 #include "core/base/Random.h"
+#include "tests/support/Trials.h"
 
 using namespace tacto;
 using testing::HasSubstr;
@@ -273,6 +275,106 @@ TEST(Standstill, OfAFingertipThatFeelsIsNone) {
     two.feed(block);
     EXPECT_FALSE(two.repeatsSince());
     EXPECT_FALSE(two.since());
+}
+
+/// What the header says of a standstill, with every comparison written out.
+class PlainStandstill {
+public:
+    explicit PlainStandstill(std::size_t channels)
+        : channels_(channels), rows_((1 + channels) * Standstill::kPeriods) {}
+
+    void feed(double t_s, std::span<const double> values) {
+        t_s_.push_back(t_s);
+        values_.emplace_back(values.begin(), values.end());
+        const auto i = values_.size() - 1;
+        for (std::size_t r = 0; r < rows_.size(); ++r) {
+            auto& row = rows_[r];
+            const auto period = r % Standstill::kPeriods + 1, of = r / Standstill::kPeriods;
+            bool same = i >= period;
+            for (std::size_t c = 0; same && c < channels_; ++c)
+                same = (of != 0 && of != c + 1) || std::bit_cast<std::uint64_t>(values_[i][c]) ==
+                                                       std::bit_cast<std::uint64_t>(values_[i - period][c]);
+            if (same && row.run == 0) row.since_s = t_s_[i - 1];
+            if (!same && row.run > 0) {
+                row.noise += row.run > kEnough && moves(row, i, period) ? kEnough : row.run;
+                row.matched += row.run;
+            }
+            row.run = same ? row.run + 1 : 0;
+        }
+    }
+    [[nodiscard]] std::optional<double> since() const {
+        const auto& row = rows_[0];
+        const double share = (row.noise + 1) / (row.noise + changed(row, t_s_.size(), 1) + 2);
+        if (row.run == 0 || t_s_.back() - row.since_s <= 0.1 || row.run * std::log(share) > std::log(1e-9)) return {};
+        return row.since_s;
+    }
+    [[nodiscard]] std::optional<double> repeatsSince() const {
+        std::optional<double> earliest;
+        for (std::size_t r = Standstill::kPeriods; r < rows_.size(); ++r) {
+            const auto& row = rows_[r];
+            if (row.run < kEnough || t_s_.back() - row.since_s <= 0.1) continue;
+            if (!moves(row, t_s_.size(), r % Standstill::kPeriods + 1)) continue;
+            if (!earliest || row.since_s < *earliest) earliest = row.since_s;
+        }
+        return earliest;
+    }
+
+private:
+    static constexpr double kEnough = 40;
+    struct Row {
+        double since_s = 0, run = 0, matched = 0, noise = 0;
+    };
+    static double changed(const Row& row, std::size_t seen, std::size_t period) {
+        const double compared = static_cast<double>(seen) - static_cast<double>(period);
+        return std::max(0.0, compared - row.matched - row.run);
+    }
+    static bool moves(const Row& row, std::size_t seen, std::size_t period) {
+        return changed(row, seen, period) >= 100 && row.noise < changed(row, seen, period);
+    }
+    std::size_t channels_;
+    std::vector<Row> rows_;
+    std::vector<double> t_s_;
+    std::vector<std::vector<double>> values_;
+};
+
+TEST(Standstill, IsWhatThePlainDefinitionSays) {
+    RecordProperty("hazard", "H7");
+    int found = 0;
+    const int streams = test::trials<int>({.local = 30, .ci = 150, .campaign = 1500});
+    for (int seed = 0; seed < streams; ++seed) {
+        std::mt19937_64 draw(static_cast<std::uint64_t>(seed));
+        const std::size_t channels = 1 + draw() % 3;
+        const double rate_hz = 300 + static_cast<double>(draw() % 2000);
+        const auto levels = 2 + draw() % 60;
+        const double odd[] = {NAN, -0.0, 0.0, INFINITY};
+        Standstill still(channels, true);
+        PlainStandstill plain(channels);
+        std::vector<std::vector<double>> rows;
+        std::size_t left = 0, period = 0, axis = 0;  // of a repetition
+        for (std::size_t i = 0; i < 2500; ++i) {
+            if (left == 0 && i > 300 && draw() % 300 == 0) {
+                left = draw() % 600;
+                period = 1 + draw() % Standstill::kPeriods;
+                axis = draw() % (channels + 1);
+            }
+            auto& row = rows.emplace_back();
+            for (std::size_t c = 0; c < channels; ++c) {
+                const bool hangs = left > 0 && (axis == c || axis == channels);
+                const double value = draw() % 50 == 0 ? odd[draw() % 4] : static_cast<double>(draw() % levels);
+                row.push_back(hangs ? rows[i - period][c] : value);
+            }
+            if (left > 0) --left;
+            SampleBlock one;
+            one.t_s = {static_cast<double>(i) / rate_hz};
+            one.values = row;
+            still.feed(one);
+            plain.feed(one.t_s[0], row);
+            ASSERT_EQ(still.since(), plain.since()) << "seed " << seed << ", sample " << i;
+            ASSERT_EQ(still.repeatsSince(), plain.repeatsSince()) << "seed " << seed << ", sample " << i;
+            found += plain.repeatsSince() ? 1 : 0;
+        }
+    }
+    EXPECT_GT(found, 100 * streams);
 }
 
 /// Ten minutes of standstill do not change what is learnt: the next standstill is found as soon.
