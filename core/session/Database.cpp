@@ -20,6 +20,8 @@ tl::unexpected<Error> failFrom(sqlite3* database, int code) {
         case SQLITE_CORRUPT:
         case SQLITE_NOTADB:
             return fail(ErrorCode::ParseError, "{}", text);
+        case SQLITE_INTERRUPT:
+            return fail(ErrorCode::Stopped, "cancelled");
         default:
             return fail(ErrorCode::Io, "{}", text);
     }
@@ -115,6 +117,16 @@ Result<void> Database::execute(const std::string& sql) {
     const int code = sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr);
     if (code != SQLITE_OK) return failFrom(database_.get(), code);
     return {};
+}
+
+std::shared_ptr<void> Database::interruptedBy(const std::function<bool()>& stopped) const {
+    if (!stopped) return nullptr;
+    constexpr int kInstructions = 1000;  // of SQLite's machine, or pages
+    sqlite3_progress_handler(
+        database_.get(), kInstructions,
+        [](void* asked) { return (*static_cast<const std::function<bool()>*>(asked))() ? 1 : 0; },
+        const_cast<std::function<bool()>*>(&stopped));
+    return {database_.get(), [](sqlite3* database) { sqlite3_progress_handler(database, 0, nullptr, nullptr); }};
 }
 
 bool Database::hasMoved() const noexcept {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -26,7 +27,7 @@ public:
     void bind(int position, std::span<const std::byte> blob) noexcept;
     void bindNull(int position) noexcept;
 
-    /// Returns true if there is a row, false after the last. Errors: Io; ParseError if the file is damaged.
+    /// Returns true if there is a row, false after the last. Errors: Io; ParseError if the file is damaged; Stopped.
     [[nodiscard]] Result<bool> step();
     /// Runs a statement that returns no rows, and resets it for the next run.
     [[nodiscard]] Result<void> run();
@@ -55,6 +56,9 @@ public:
     /// Runs one or more statements without parameters.
     [[nodiscard]] Result<void> execute(const std::string& sql);
     [[nodiscard]] Result<Statement> prepare(std::string_view sql) const;
+    /// While the result lives, `stopped` is asked every few milliseconds of a long statement, which ends with the error
+    /// Stopped once it says yes. Nothing is asked if it is empty.
+    [[nodiscard]] std::shared_ptr<void> interruptedBy(const std::function<bool()>& stopped) const;
     /// Whether the file was moved or removed since it was opened, so that its name no longer leads to it.
     [[nodiscard]] bool hasMoved() const noexcept;
     /// Returns the first column of the first row of `sql` as an integer; 0 if there are no rows.

@@ -98,6 +98,7 @@ private:
     [[nodiscard]] Result<void> checkPages() {
         auto lines = database_.prepare("PRAGMA integrity_check(20)");
         if (!lines) return failure(lines);
+        const auto asked = database_.interruptedBy(stopped_);
         for (;;) {
             auto more = lines->step();
             if (!more) return failure(more);

@@ -54,6 +54,27 @@ TEST_F(SessionVerify, TheWriterKnowsTheHeadThatVerifyFinds) {
 }
 
 // SQLite itself is the oracle: if any program would read other rows than were written, verify must report damage.
+TEST_F(SessionVerify, AsksWhetherToStopWhileTheDatabaseChecksItself) {
+    const auto path = dir_.path() / "t.tacto";
+    VirtualClock clock;
+    auto writer = SessionWriter::create(path, {}, clock).value();
+    for (int i = 0; i < 3000; ++i) ASSERT_TRUE(writer->event(clock.now(), "armed", {{"number", i}}));
+    ASSERT_TRUE(writer->close());
+    std::uint64_t asked = 0;
+    const auto report = verifySession(path, [&] { return ++asked == 0; });
+    ASSERT_TRUE(report);
+    EXPECT_EQ(report->status, SessionStatus::Intact);
+    const auto beside = asked - report->rows;  // those of each row
+    EXPECT_GT(asked, report->rows + 10);
+    for (const std::uint64_t stop : {std::uint64_t{1}, beside / 2, beside, asked}) {
+        asked = 0;
+        const auto done = verifySession(path, [&] { return ++asked >= stop; });
+        ASSERT_FALSE(done) << stop;
+        EXPECT_EQ(done.error().code, ErrorCode::Stopped);
+        EXPECT_EQ(asked, stop) << "nothing is checked after the stop";
+    }
+}
+
 TEST_F(SessionVerify, FindsAnyFlippedByteThatChangesARow) {
     const auto good = test::bytesOf(path_);
     const auto rows = test::everythingIn(path_);
