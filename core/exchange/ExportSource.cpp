@@ -546,17 +546,19 @@ Result<void> ExportSource::forEachTrain(const std::function<Result<void>(const E
     }
     TrainJoin join(std::move(refused), simulated(trains()));
     Result<void> went;
-    auto read = state_->reader.forEachCommand([&](const SessionRow& row) {
-        if (!went) return;
-        if (state_->code.empty()) {
-            went = join.take(row, visit);
-        } else {
-            auto hidden = row;
-            hide(state_->code, hidden.body);
-            went = join.take(hidden, visit);
-        }
-        if (went) went = state_->goOn();
-    });
+    auto read = state_->reader.forEachCommand(
+        [&](const SessionRow& row) {
+            if (!went) return;
+            if (state_->code.empty()) {
+                went = join.take(row, visit);
+            } else {
+                auto hidden = row;
+                hide(state_->code, hidden.body);
+                went = join.take(hidden, visit);
+            }
+            if (went) went = state_->goOn();
+        },
+        [&](std::string_view) { return went.has_value(); });  // the rest is passed unread
     if (!read) return read;
     return went ? join.end(visit) : went;
 }
@@ -599,13 +601,15 @@ Result<void> ExportSource::forEachMoment(const std::function<Result<void>(const 
         for (; went && next != few.end() && next->seq < before; ++next) went = visit(next->row);
         if (went) went = state_->goOn();
     };
-    auto read = reader.forEachCommand([&](const SessionRow& row) {
-        flush(row.seq);
-        ExportRow command{toSeconds(row.at), "command", row.name, row.body};
-        hide(state_->code, command.name);
-        hide(state_->code, command.details);
-        if (went) went = visit(command);
-    });
+    auto read = reader.forEachCommand(
+        [&](const SessionRow& row) {
+            flush(row.seq);
+            ExportRow command{toSeconds(row.at), "command", row.name, row.body};
+            hide(state_->code, command.name);
+            hide(state_->code, command.details);
+            if (went) went = visit(command);
+        },
+        [&](std::string_view) { return went.has_value(); });
     if (!read) return read;
     flush(std::numeric_limits<std::int64_t>::max());
     return went;

@@ -11,8 +11,10 @@
 #include <thread>
 
 #include "core/acquisition/Recording.h"
+#include "core/exchange/ExportSource.h"
 #include "core/session/Chunk.h"
 #include "tests/exchange/ExportSupport.h"
+#include "tests/support/Allocations.h"
 #include "tests/support/Trials.h"
 
 namespace tacto::test {
@@ -158,6 +160,33 @@ TEST_P(Exports, LeaveNothingWhenCancelledAtAnyMoment) {
         EXPECT_EQ(done.error().code, ErrorCode::Stopped);
         ASSERT_THAT(namesIn(place()), ElementsAre());
     }
+}
+
+TEST(ExportSource, ReadsNoCommandAfterItWasCancelled) {
+    if (!countsAllocations()) GTEST_SKIP() << kNotCounted;
+    const ScratchDir folder;
+    const auto path = folder.path() / "s.tacto";
+    VirtualClock clock;
+    auto writer = SessionWriter::create(path, someAbout(), clock).value();
+    constexpr std::size_t kTrains = 2000;
+    for (std::size_t i = 0; i < kTrains; ++i)
+        ASSERT_TRUE(writer->command(clock.now(), "delivered", {{"amplitude_v", 10.0}, {"interval_s", 0.5}}));
+    ASSERT_TRUE(writer->close());
+    bool stop = false;
+    const auto source = ExportSource::open(path, nullptr, {.stopped = [&] { return stop; }}, "0.0.0-test");
+    ASSERT_TRUE(source) << source.error().message;
+    const auto cancelled = [&](auto read) {
+        stop = false;
+        const auto before = allocationsOfThisThread();
+        const auto done = read([&](const auto&) -> Result<void> {
+            stop = true;
+            return {};
+        });
+        EXPECT_EQ(done ? ErrorCode::Io : done.error().code, ErrorCode::Stopped);
+        EXPECT_LT(allocationsOfThisThread() - before, kTrains);
+    };
+    cancelled([&](const auto& visit) { return source->forEachTrain(visit); });
+    cancelled([&](const auto& visit) { return source->forEachMoment(visit); });
 }
 
 TEST_P(Exports, LeaveNothingOnAFullDisk) {
