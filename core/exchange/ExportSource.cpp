@@ -113,6 +113,7 @@ void lookAt(ExportChannel& channel, const SampleBlock& block, std::size_t at, st
             if (!(value <= channel.most)) channel.most = value;
             channel.whole = channel.whole && value == std::floor(value);
         } else {
+            ++channel.infinite;
             channel.whole = false;
         }
     }

@@ -135,16 +135,23 @@ public:
 
 private:
     static constexpr double kMaxLost = 0.01;
+    // More places for a sample than these are out of proportion, unless they take little.
+    static constexpr double kMaxPlaces = 50, kLittleBytes = 64 << 20;
 
     static Result<void> because(const std::filesystem::path& path) {
         return namedAs(path, fail(ErrorCode::Io, "{}", std::strerror(errno)));
     }
     [[nodiscard]] std::size_t maxRecordBytes() const { return bdf_ ? kMaxRecordBytesBdf : kMaxRecordBytesEdf; }
+    /// For samples of signals in a record.
+    [[nodiscard]] double room() const {
+        return static_cast<double>((maxRecordBytes() - kMaxAnnotationSignals * kAnnotationBytes) / bytes_);
+    }
     [[nodiscard]] std::size_t notesPerSignal() const { return kAnnotationBytes / bytes_; }
 
     /// Chooses the streams that have a rate and a range that a header can state, and the record's duration.
     void plan() {
         std::size_t signals = 0;
+        double taken = 0;  // samples of the shortest record
         for (const auto& stream : source_.streams()) {
             PlannedStream planned{.stream = &stream, .signals = {}, .counts = {}};
             std::string why;
@@ -158,10 +165,15 @@ private:
             }
             if (signals + stream.channels.size() > kMaxSignals - kMaxAnnotationSignals)
                 why = fmt::format("{} holds at most {} signals", name(), kMaxSignals - kMaxAnnotationSignals);
+            const double wanted = static_cast<double>(stream.channels.size()) * (rateOf(stream) * kMinRecord_s + 1);
+            if (why.empty() && !(taken + wanted <= room()))
+                why = fmt::format("at {:.6g} Hz it has no room in a record of {}, which holds {} samples in {} s",
+                                  rateOf(stream), name(), room(), kMinRecord_s);
             if (!why.empty()) {
                 leaveOut(stream, why);
                 continue;
             }
+            taken += wanted;
             signals += stream.channels.size();
             streams_.push_back(std::move(planned));
         }
@@ -171,6 +183,16 @@ private:
         return stream.rate_hz > 0 ? stream.rate_hz : stream.declaredRate_hz;
     }
     [[nodiscard]] const char* name() const { return bdf_ ? "BDF" : "EDF"; }
+    /// Leaves out a stream that would be almost nothing but absent values until `end_s`; returns whether it was.
+    bool leaveOutIfSparse(const PlannedStream& planned, double end_s) {
+        const auto& stream = *planned.stream;
+        const double places = end_s * planned.slotRate_hz(record_s_);
+        const double bytes = places * static_cast<double>(stream.channels.size() * bytes_);
+        if (bytes <= kLittleBytes || places <= kMaxPlaces * static_cast<double>(stream.samples)) return false;
+        leaveOut(stream, fmt::format("its {} samples would be spread over {:.6g} places, up to {:.6g} s at {:.6g} Hz",
+                                     stream.samples, places, end_s, rateOf(stream)));
+        return true;
+    }
     void leaveOut(const ExportStream& stream, std::string why) {
         report_.leftOut.push_back({stream.name, std::move(why)});
     }
@@ -178,8 +200,7 @@ private:
     void chooseRecord() {
         std::vector<double> rates;  // of each signal
         for (const auto& planned : streams_) rates.insert(rates.end(), planned.signals.size(), rateOf(*planned.stream));
-        const auto room = maxRecordBytes() - kMaxAnnotationSignals * kAnnotationBytes;
-        record_s_ = recordDuration_s(rates, static_cast<double>(room / bytes_));
+        record_s_ = recordDuration_s(rates, room());
         for (auto& planned : streams_)
             planned.perRecord =
                 std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(rateOf(*planned.stream) * record_s_)));
@@ -252,10 +273,15 @@ private:
                 planned = streams_.erase(planned);
                 continue;
             }
+            if (leaveOutIfSparse(*planned, last_s + slot_s)) {
+                planned = streams_.erase(planned);
+                continue;
+            }
             end_s_ = std::max(end_s_, last_s + slot_s);
             finders.push_back(std::move(absent));
             ++planned;
         }
+        std::erase_if(streams_, [&](const auto& planned) { return leaveOutIfSparse(planned, end_s_); });
         for (auto& finder : finders) finder.end(end_s_, absences_);
         return streams_.size() == before;
     }
@@ -465,12 +491,17 @@ private:
                                    .maxTimeError_s = planned.counts.maxTimeError_s};
             for (std::size_t c = 0; c < stream.channels.size(); ++c) {
                 const auto& scale = planned.signals[c].scale;
+                const auto infinite = stream.channels[c].infinite;
                 written.channels.push_back({.name = stream.channels[c].name,
                                             .unit = stream.channels[c].unit,
                                             .exact = scale.exact,
                                             .step = scale.exact ? kNaN : scale.step(),
                                             .maxError = scale.exact ? 0 : 0.5 * scale.step(),
-                                            .absent = stream.channels[c].absent});
+                                            .absent = stream.channels[c].absent + infinite});
+                if (infinite > 0)
+                    report_.leftOut.push_back(
+                        {fmt::format("{} infinite values of {}", infinite, stream.channels[c].name),
+                         fmt::format("{} holds finite values; they stand there as absent", name())});
             }
             report_.streams.push_back(std::move(written));
         }

@@ -44,9 +44,9 @@ double recordDuration_s(std::span<const double> rates_hz, double maxRecord) {
     for (const double duration_s : {1.0, 2.0, 4.0, 5.0, 8.0, 10.0})
         if (errorAt(duration_s) <= kWhole && together * duration_s <= maxRecord) return duration_s;
     double best_s = 1, least = INFINITY;
-    constexpr int kHundredths = 6000;
-    for (int i = 1; i <= kHundredths; ++i) {
-        const double duration_s = i / 100.0;
+    constexpr int kMultiples = 6000;
+    for (int i = 1; i <= kMultiples; ++i) {
+        const double duration_s = i / std::round(1 / kMinRecord_s);
         if (together * duration_s > maxRecord && i > 1) break;
         if (const double error = errorAt(duration_s); error < least) {
             least = error;

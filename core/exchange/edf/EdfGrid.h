@@ -10,9 +10,12 @@
 
 namespace tacto::edf {
 
+/// The shortest record that is chosen.
+inline constexpr double kMinRecord_s = 0.01;
+
 /// Returns the duration of a record: the first of 1, 2, 4, 5, 8 and 10 s at which every rate gives whole samples, else
-/// the multiple of 10 ms up to 60 s with the least relative error. Rates are finite and above 0; `maxRecord` is the
-/// most samples in a record, and limits what is chosen in place of the first six.
+/// the multiple of kMinRecord_s up to 60 s with the least relative error. Rates are finite and above 0; `maxRecord` is
+/// the most samples in a record, and limits what is chosen in place of the first six.
 [[nodiscard]] double recordDuration_s(std::span<const double> rates_hz, double maxRecord);
 
 /// What the samples of a stream become on the grid.

@@ -190,6 +190,71 @@ TEST_P(ExportedSignals, GiveTheRoughnessOfTheSession) {
     near(found->summary.pressure_pa.mean, whole->summary.pressure_pa.mean);
 }
 
+/// Streams by their kind: rate and samples. Each channel has the values that are given, again and again.
+fs::path sessionOf(const fs::path& folder, const std::vector<std::tuple<const char*, double, SampleBlock>>& streams) {
+    auto path = folder / "s.tacto";
+    VirtualClock clock;
+    auto writer = SessionWriter::create(path, test::someAbout(), clock);
+    EXPECT_TRUE(writer);
+    for (const auto& [kind, rate_hz, samples] : streams) {
+        const auto id = (*writer)->addStream(SessionStream{kind, kind, "N", {kind}, rate_hz});
+        EXPECT_TRUE(id);
+        EXPECT_TRUE((*writer)->append(*id, samples));
+    }
+    EXPECT_TRUE((*writer)->close());
+    return path;
+}
+
+class EdfExports : public testing::TestWithParam<const char*> {
+protected:
+    [[nodiscard]] Result<ExportReport> exported(
+        const std::vector<std::tuple<const char*, double, SampleBlock>>& streams) const {
+        return exportSession(sessionOf(folder_.path(), streams), *exportFormat(GetParam()), out_, "0.0.0-test");
+    }
+    const test::ScratchDir folder_;
+    const fs::path out_ = folder_.path() / fmt::format("out.{}", GetParam());
+};
+INSTANTIATE_TEST_SUITE_P(All, EdfExports, testing::Values("edf", "bdf"),
+                         [](const auto& format) { return std::string(format.param); });
+
+TEST_P(EdfExports, LeaveOutStreamsThatWouldBeAlmostNothingButAbsent) {
+    RecordProperty("hazard", "H9");
+    const auto force = test::ramp(0, 100, 500, 1);
+    auto glitch = test::ramp(0, 100, 500, 1);
+    glitch.t_s.back() = 1e6;
+    SampleBlock one;
+    one.t_s = {4.5};
+    one.values = {1};
+    const auto done = exported({{"fast", 1e9, one},
+                                {"endless", 1e300, one},
+                                {"force", 100, force},
+                                {"sparse", 1e8, one},
+                                {"lonely", 50, one},
+                                {"glitch", 100, glitch}});
+    ASSERT_TRUE(done) << done.error().message;
+    std::vector<std::string> written, leftOut;
+    for (const auto& stream : done->streams) written.push_back(stream.name);
+    for (const auto& [what, why] : done->leftOut) leftOut.push_back(what);
+    EXPECT_THAT(written, testing::ElementsAre("force", "lonely"));
+    EXPECT_THAT(leftOut, testing::UnorderedElementsAre("records", "fast", "endless", "sparse", "glitch"));
+    EXPECT_LT(fs::file_size(out_), 100'000U);
+    const auto opened = openRecording(out_);
+    EXPECT_TRUE(opened) << opened.error().message;
+}
+
+TEST_P(EdfExports, CountInfiniteValuesAsAbsent) {
+    RecordProperty("hazard", "H9");
+    auto force = test::ramp(0, 100, 500, 1);
+    force.values[7] = INFINITY;
+    force.values[9] = force.values[10] = -INFINITY;
+    force.values[11] = NAN;
+    const auto done = exported({{"force", 100, force}});
+    ASSERT_TRUE(done) << done.error().message;
+    EXPECT_EQ(done->streams.at(0).channels.at(0).absent, 4U);
+    const auto named = std::ranges::find(done->leftOut, "3 infinite values of force", &LeftOut::what);
+    EXPECT_NE(named, done->leftOut.end());
+}
+
 TEST(EdfGrid, ARecordHasWholeSamplesOfEveryRate) {
     EXPECT_EQ(edf::recordDuration_s(std::vector<double>{2200, 200, 100}, 1e6), 1);
     EXPECT_EQ(edf::recordDuration_s(std::vector<double>{62.5, 4000}, 1e6), 2);
