@@ -53,7 +53,7 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     whole->addWidget(page_, 1);
     trouble_->setContentsMargins(kPagePad, 0, kPagePad, 8);
     whole->addWidget(trouble_);
-    auto* foot = addPageFoot(*whole, this);
+    auto* foot = addPageFoot(*whole, this, QBoxLayout::TopToBottom);
     begin_->setIcon(icon("run", Ink::Primary));
     makePrimary(*begin_);
     endDay_ =
@@ -62,8 +62,11 @@ SessionStartPage::SessionStartPage(const DeviceWatch& watch, QWidget* parent)
     makePrimary(*endDay_);
     auto* back = pageButton(tr("Back to the study"), "backToStudy", {}, this);
     whyNot_ = makeLabel({}, {.name = "whyNotBegin", .tone = Tone::Quiet, .wraps = true, .plain = true}, this);
-    for (auto* button : {begin_, endDay_, back}) foot->addWidget(button);
-    foot->addWidget(whyNot_, 1);
+    foot->addWidget(whyNot_);
+    auto* buttons = new QHBoxLayout;
+    for (auto* button : {begin_, endDay_, back}) buttons->addWidget(button);
+    buttons->addStretch();
+    foot->addLayout(buttons);
     connect(begin_, &QPushButton::clicked, this, &SessionStartPage::beginWanted);
     connect(endDay_, &QPushButton::clicked, this, &SessionStartPage::endDayWanted);
     connect(back, &QPushButton::clicked, this, &SessionStartPage::backWanted);
@@ -177,6 +180,7 @@ void SessionStartPage::judge() {
     begin_->setVisible(!yes);
     endDay_->setVisible(yes);
     whyNot_->setText(why);
+    whyNot_->setVisible(!why.isEmpty());
     begin_->setToolTip(
         !why.isEmpty() ? why : tr("Every condition of the study is looked at first. Nothing is delivered before."));
     begin_->setText(offer_->goesOn() ? tr("Go on with the session") : tr("Begin the session"));
