@@ -36,8 +36,8 @@ struct ExportChannel {
     std::string unit;          ///< the session's: "m/s2", "N", "Pa", "count"; "1" where there is none
     std::uint64_t absent = 0;  ///< number of samples that are NaN
     std::uint64_t infinite = 0;
-    bool whole = true;         ///< whether all finite values are whole numbers
-    double least = kNaN;       ///< of the finite values; NaN without any
+    bool whole = true;    ///< whether all finite values are whole numbers
+    double least = kNaN;  ///< of the finite values; NaN without any
     double most = kNaN;
 };
 

@@ -104,7 +104,7 @@ private:
     quint64 id_ = 0;
     bool asking_ = false;
     bool operatorsTest_ = false;  ///< the operator's STOP is being tested
-    bool shown_ = false;  ///< true if the question's targets are on the screen; an earlier press is no answer
+    bool shown_ = false;          ///< true if the question's targets are on the screen; an earlier press is no answer
     bool stopped_ = false;
     bool break_ = false;
     bool painted_ = false;
