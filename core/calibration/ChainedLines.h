@@ -34,8 +34,8 @@ public:
     [[nodiscard]] Result<void> read(const std::function<Result<void>(const nlohmann::json& line)>& take);
 
     /// Appends and syncs what `line` returns. `line` is called with the file locked and must call read(), because
-    /// another process may have appended. Errors: Io, also if another program holds the file for 2 s, or if the line
-    /// was written but its end could not be noted; as `line`.
+    /// another process may have appended. Errors: those of `line`; Io, also if another program holds the file for
+    /// 2 s, or if the line was written but its end could not be noted.
     [[nodiscard]] Result<void> append(const std::function<Result<nlohmann::json>()>& line);
 
     [[nodiscard]] bool lastLineCut() const noexcept { return cut_; }

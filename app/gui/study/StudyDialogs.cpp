@@ -245,7 +245,7 @@ QDialog* enrolDialog(OpenStudy& study, std::function<void(const QString& code)> 
          choiceField("enrolGroup", tr("&Group"), groups, {}),
          textField("enrolCode", tr("&Code"), {},
                    tr("Type a code only if it was given elsewhere. Its last character is a check character."),
-                   tr("a new one is drawn")),
+                   tr("the program draws a new code")),
          age, aboutField("enrolSex", tr("Se&x"), kSexes),
          aboutField("enrolHandedness", tr("&Handedness"), kHandednesses)},
         FieldForm::Labels::Beside);
@@ -510,10 +510,11 @@ QDialog* exportDialog(OpenStudy& study, std::function<void(const BidsWith& with)
 }
 
 QDialog* nextDayDialog(OpenStudy& study, const QString& code, QWidget* parent) {
-    auto* asks = new StudyDialog(study, "nextDay", tr("The day after a session"),
-                                 tr("Ask the participant on a later day. It is sealed; what is noted last counts. Skin "
-                                    "that scores 2 or more is noted as an adverse event."),
-                                 parent);
+    auto* asks =
+        new StudyDialog(study, "nextDay", tr("The day after a session"),
+                        tr("Ask the participant on a later day. The answers are sealed; the newest counts. Skin "
+                           "that scores 2 or more is noted as an adverse event."),
+                        parent);
     const auto needed = tr("the site is not known to be well");
     auto* form = asks->ask({sessionField(asks->study(), code),
                             scoreField("erythema", tr("Redness of the skin"), kSkinScores, needed, 0),

@@ -107,7 +107,7 @@ void LimitSetView::show(int index) {
                                         : tr("accuracy of the %1").arg(name));
     }
     for (const auto& one : set.disclosures) asked << shownUnits(one.output);
-    stated_->setText(asked.isEmpty() ? tr("The set asks for no accuracy and no output to be stated.")
+    stated_->setText(asked.isEmpty() ? tr("This limit set does not ask you to state an accuracy or an output.")
                                      : tr("The set also asks for: %1.").arg(asked.join("; ")));
 }
 

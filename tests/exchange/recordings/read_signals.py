@@ -76,6 +76,7 @@ def check_xdf():
 
 
 def check_edf():
+    missing = []  # annotations of absent stretches
     import edfio
     import pyedflib
 
@@ -143,9 +144,12 @@ def check_edf():
         edges = np.concatenate([[0], ours[:, 0]])
         if len(stream["columns"]) == 1 and not np.isnan(ours[:, 1:]).any():
             for begin, end in zip(edges[:-1], edges[1:]):
-                if end - begin > 1 + 3 / rate:
-                    assert any(n[2] == f"absent {stream['name']}" and abs(n[0] - begin) < 2 / rate for n in notes), (
-                        stream["name"], begin, end, notes)
+                if end - begin > 1 + 3 / rate and not any(
+                        n[2] == f"absent {stream['name']}" and abs(n[0] - begin) < 2 / rate for n in notes):
+                    missing.append((stream["name"], begin, end))
+    # A file holds 64 annotations a record; how many had no room is said.
+    no_room = sum(int(what.split()[0]) for what in left_out if what.endswith(" annotations"))
+    assert len(missing) <= no_room and (not missing or len(notes) >= 64), (missing, no_room, notes)
     assert set(written) | left_out >= {s["name"] for s in drawn["streams"]}
 
 

@@ -36,10 +36,11 @@ TEST_F(FaultRecovery, TakesTwoPressesAndDrivesAsBefore) {
     for (const auto source : {DriveSource::Manual, DriveSource::Sensor}) {
         const bool lifts = std::bernoulli_distribution()(random);
         SCOPED_TRACE(lifts ? "open" : "short");
-        ASSERT_NO_FATAL_FAILURE(openWith(std::string(lifts ? "open" : "short") + "@4s..5s"));
-        window.controller().setHand({DriveSource::Manual, 1, 1});  // older and larger than what drives
+        ASSERT_NO_FATAL_FAILURE(
+            openWith(std::string(lifts ? "open" : "short") + "@4s..8s"));  // longer than the longest interval
+        window.controller().setHand({DriveSource::Manual, 1, 1});          // older and larger than what drives
         ASSERT_NO_FATAL_FAILURE(faultsWhileDrivenBy(source));
-        ASSERT_IN_TIME(comesTrue([this] { return toSeconds(window.controller().telemetry().at) > 5.2; }));
+        ASSERT_IN_TIME(comesTrue([this] { return toSeconds(window.controller().telemetry().at) > 8.2; }));
         EXPECT_EQ(shown("armAndDrive"), nullptr) << "nothing asks before the fault was acknowledged";
         const auto before = window.controller().telemetry().trainsDelivered;
         click(action());
