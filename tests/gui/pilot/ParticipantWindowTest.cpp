@@ -300,7 +300,9 @@ TEST_F(Seated, ReadsAllInTheirLanguage) {
     typed.name = "typed";
     typed.text = german->text("introduction.1");
     ASSERT_NO_FATAL_FAILURE(ask(typed));
-    for (auto* widget : window.findChildren<QWidget*>() << &window) {
+    auto widgets = window.findChildren<QWidget*>();
+    widgets << &window;
+    for (auto* widget : widgets) {
         if (!widget->isVisible()) continue;
         QContextMenuEvent menu(QContextMenuEvent::Mouse, QPoint(2, 2), widget->mapToGlobal(QPoint(2, 2)));
         QCoreApplication::sendEvent(widget, &menu);
