@@ -224,7 +224,7 @@ struct SessionReader::State {
         std::int64_t found = 0;
         bool going = true;
         return forEach(kind::kChunk, [&](const SessionRow& row) {
-            const auto chunk = parseChunkHead(dumpJson(row.body));
+            const auto chunk = chunkHeadFrom(row.body);
             if (!going || !chunk || chunk->stream != info.id || found++ % each != 0) return;
             auto data = source.database().prepare("SELECT stamps, data FROM chunks WHERE seq=?");
             if (!data) return;
@@ -485,7 +485,7 @@ Result<std::vector<SessionStreamInfo>> SessionReader::streams() const {
     for (auto& info : *streams) {
         if (state_->damaged) {  // the number recorded, read or not, as far as is known
             auto counted = state_->forEach(kind::kChunk, [&](const SessionRow& row) {
-                const auto head = parseChunkHead(dumpJson(row.body));
+                const auto head = chunkHeadFrom(row.body);
                 if (head && head->stream == info.id) info.samples = head->firstSample + head->samples;
             });
             if (!counted) return failure(counted);
@@ -533,7 +533,7 @@ Result<StreamOutline> SessionReader::outline(int stream, std::uint64_t most) con
     auto counted = state_->damaged
                        ? state_->forEach(kind::kChunk,
                                          [&](const SessionRow& row) {
-                                             const auto head = parseChunkHead(dumpJson(row.body));
+                                             const auto head = chunkHeadFrom(row.body);
                                              if (head && head->stream == info->id) samples += head->samples;
                                          })
                        : state_->forEachChunk(*info, "DESC", [&](const ChunkHead& head, const SampleBlock&) {

@@ -295,7 +295,7 @@ void ProtocolWorkspace::ask(bool resetFault) {
         if (const auto part = pages_->form().goToRefused()) showStep(*part ? kReference : kSettings);
         return;
     }
-    // The operator acknowledges the fault of the last run; other devices may have one that nobody has seen.
+    // The operator acknowledges the fault of the last run; other devices may have a fault not seen yet.
     if (resetFault && addressesOf(asked->uris) != addressesOf(last_->order.uris))
         return panel_->say(tr("The fault was left in %1, and %2 is chosen now: nothing was reset. Choose the same "
                               "devices again, or press Run.")

@@ -91,7 +91,7 @@ bool WheelGuard::isSetting(const QWidget& widget) {
 
 namespace {
 
-/// True if the plot itself or somebody who listens to it uses the wheel.
+/// True if the plot itself, or an object connected to it, uses the wheel.
 bool zoomsByWheel(const QCustomPlot& plot) {
     struct Open : QCustomPlot {
         using QCustomPlot::isSignalConnected;

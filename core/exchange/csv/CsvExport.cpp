@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/JsonText.h"
-#include "core/base/WholeFile.h"
+#include "core/exchange/PieceOut.h"
 #include "core/measure/CaptureDescription.h"
 #include "core/measure/CaptureFile.h"
 #include "core/session/Origin.h"
@@ -16,11 +16,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-class CsvOut {
+class CsvOut : public PieceOut {
 public:
-    explicit CsvOut(fs::path path) : path_(std::move(path)), file_(FileOut::create(path_)) {
-        text_.reserve(2 * kPiece);
-    }
+    using PieceOut::PieceOut;
 
     void number(double value) {
         separate();
@@ -46,24 +44,15 @@ public:
     [[nodiscard]] Result<void> endRow() {
         text_ += '\n';
         begun_ = false;
-        return text_.size() >= kPiece ? flush() : Result<void>();
-    }
-    [[nodiscard]] Result<void> flush() {
-        auto written = file_ ? file_->write(text_) : failure(file_);
-        text_.clear();
-        return namedAs(path_, std::move(written));
+        return flushIfFull();
     }
 
 private:
-    static constexpr std::size_t kPiece = std::size_t{1} << 18;
     void separate() {
         if (begun_) text_ += ',';
         begun_ = true;
     }
 
-    fs::path path_;
-    Result<FileOut> file_;
-    std::string text_;
     bool begun_ = false;
 };
 

@@ -220,7 +220,7 @@ Result<Hdf5File> Hdf5File::create(const std::filesystem::path& path) {
     const auto access = owned(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
-    H5Pset_file_locking(access, false, true);  // nobody else knows the private name
+    H5Pset_file_locking(access, false, true);  // no other program knows the private name
     const auto properties = groupProperties(H5P_FILE_CREATE);
     auto file = owned(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, properties, access), H5Fclose);
     if (file < 0) return because("make the file");

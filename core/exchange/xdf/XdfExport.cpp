@@ -8,8 +8,8 @@
 
 #include "core/base/JsonText.h"
 #include "core/base/Printable.h"
-#include "core/base/WholeFile.h"
 #include "core/exchange/ExportMoments.h"
+#include "core/exchange/PieceOut.h"
 #include "core/exchange/xdf/XdfNames.h"
 
 namespace tacto {
@@ -20,12 +20,9 @@ using namespace xdf;
 
 constexpr double kBoundaryEach_s = 10;
 
-class XdfOut {
+class XdfOut : public PieceOut {
 public:
-    explicit XdfOut(const std::filesystem::path& path) : path_(path), file_(FileOut::create(path)) {
-        text_.reserve(2 * kPiece);
-        text_ += kMagic;
-    }
+    explicit XdfOut(const std::filesystem::path& path) : PieceOut(path) { text_ += kMagic; }
 
     template <class Number>
     static void put(std::string& into, Number number) {
@@ -45,24 +42,13 @@ public:
         putLength(text_, bytes);
         put(text_, static_cast<std::uint16_t>(tag));
         for (const auto part : parts) text_ += part;
-        return text_.size() >= kPiece ? flush() : Result<void>();
+        return flushIfFull();
     }
     [[nodiscard]] Result<void> ofStream(Tag tag, std::uint32_t id, std::string_view content) {
         std::string number;
         put(number, id);
         return chunk(tag, {number, content});
     }
-    [[nodiscard]] Result<void> flush() {
-        auto written = file_ ? file_->write(text_) : failure(file_);
-        text_.clear();
-        return namedAs(path_, std::move(written));
-    }
-
-private:
-    static constexpr std::size_t kPiece = std::size_t{1} << 18;
-    std::filesystem::path path_;
-    Result<FileOut> file_;
-    std::string text_;
 };
 
 /// Adds <name>text</name>; characters that XML 1.0 does not have are written as escapes.
