@@ -1,0 +1,235 @@
+#include "drivers/sensor_board/EncoderProfile.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "core/dsp/SampleHistory.h"
+#include "core/dsp/SensorScales.h"
+
+namespace tacto {
+
+namespace {
+
+float single(double x) noexcept { return static_cast<float>(x); }
+std::uint32_t word(bool x) noexcept { return x ? 1U : 0U; }
+
+template <class Enum>
+std::uint32_t numberOf(Enum value) noexcept {
+    return static_cast<std::uint32_t>(value);
+}
+static_assert(static_cast<int>(CurveKind::Logarithmic) == TE_LOGARITHMIC &&
+              static_cast<int>(CurveKind::Power) == TE_POWER);
+static_assert(static_cast<int>(PulseShape::AsymmetricBiphasic) == TE_ASYMMETRIC &&
+              static_cast<int>(PulseShape::Monophasic) == TE_MONOPHASIC);
+
+/// The largest reading that is accepted, for a board that has no number larger than `float` can hold.
+float mostReading(StreamUnit unit) noexcept {
+    return single(std::min<double>(mostPlausible(unit), std::numeric_limits<float>::max()));
+}
+
+void setStream(te_profile& to, const StreamScaling& scaling, std::size_t s) noexcept {
+    const StreamInfo& info = scaling.streams()[s];
+    const float rate = single(info.rate_hz), most = mostReading(info.unit);
+    const auto channels = static_cast<std::uint32_t>(info.channels);
+    const auto line = [&](std::size_t channel, float& scale, float& offset) {
+        offset = single(scaling.inUse(s, channel, 0));
+        scale = single(scaling.inUse(s, channel, 1) - scaling.inUse(s, channel, 0));
+    };
+    switch (info.kind) {
+        case StreamKind::Acceleration:
+            to.acceleration_hz = rate;
+            to.axes = channels;
+            to.acceleration_most = most;
+            return;
+        case StreamKind::Force:
+            to.force_hz = rate;
+            to.force_most = most;
+            to.force_newton = word(info.unit == StreamUnit::Newton);
+            return line(0, to.force_scale, to.force_offset);
+        case StreamKind::Taxels:
+            to.taxels_hz = rate;
+            to.taxels = channels;
+            to.taxels_most = most;
+            to.taxels_pascal = word(info.unit == StreamUnit::Pascal);
+            for (std::size_t c = 0; c < std::min<std::size_t>(channels, TE_TAXELS); ++c)
+                line(c, to.taxel_scale[c], to.taxel_offset[c]);
+    }
+}
+
+void setRoughness(te_profile& to, const RoughnessSettings& from, bool restFits) noexcept {
+    to.spectral_absolute = word(from.spectral == SpectralFeature::Absolute);
+    to.taxel_dynamic = word(from.taxel == TaxelFeature::Dynamic);
+    to.band_low_hz = single(from.bandLow.value());
+    to.spectral_weight = single(from.spectralWeight);
+    to.taxel_weight = single(from.taxelWeight);
+    to.spectral_smooth = single(from.spectralScale().smooth);
+    to.spectral_rough = single(from.spectralScale().rough);
+    to.taxel_smooth = single(from.taxelScale().smooth);
+    to.taxel_rough = single(from.taxelScale().rough);
+    to.smoothing_s = single(from.smoothing.count());
+    to.rest_mean_square = restFits ? single(from.restMeanSquare.value_or(0)) : 0;
+    to.contact_area_cm2 = single(from.contactArea.value());
+    to.pressure_min_pa = single(from.pressureMin.value());
+    to.pressure_max_pa = single(from.pressureMax.value());
+}
+
+void setEncoding(te_profile& to, const EncodingProfile& from) noexcept {
+    to.amplitude_min_v = single(from.amplitudeMin.value());
+    to.amplitude_max_v = single(from.amplitudeMax.value());
+    to.interval_min_s = single(from.intervalMin.count());
+    to.interval_max_s = single(from.intervalMax.count());
+    to.amplitude_curve = numberOf(from.amplitudeCurve.kind);
+    to.interval_curve = numberOf(from.intervalCurve.kind);
+    to.amplitude_beta = single(from.amplitudeCurve.beta);
+    to.interval_beta = single(from.intervalCurve.beta);
+    to.swapped = word(from.assignment == Assignment::Swapped);
+    to.amplitude_ratio = single(from.amplitudeRatioPerTrain);
+    to.interval_ratio = single(from.intervalRatioPerTrain);
+    to.amplitude_slew_v_s = single(from.amplitudeSlew_V_per_s);
+    to.shape = numberOf(from.train.shape);
+    to.negative = word(from.train.polarity == Polarity::Negative);
+    to.width_us = single(from.train.phaseWidth.count());
+    to.gap_us = single(from.train.interPhaseGap.count());
+    to.recharge_ratio = single(from.train.rechargeRatio);
+    to.pulses = static_cast<std::uint32_t>(from.train.pulses);
+    to.pulse_hz = single(from.train.rate.value());
+}
+
+/// A board knows relative errors only; nothing stated is ± 5 %, as for the gate.
+Result<float> relative(const std::optional<Spread>& stated, std::string_view what) {
+    const Spread spread = stated.value_or(kUnknownSpread);
+    if (spread.absolute == 0) return single(spread.relative);
+    return fail(ErrorCode::Unsupported,
+                "the stimulator's {} may be off by {} and a share; the board's encoder accepts a share alone", what,
+                spread.absolute);
+}
+
+Result<void> setCeiling(te_profile& to, const Ceiling& ceiling, double amplitudeMax) {
+    const float most = single(ceiling.max);
+    switch (ceiling.quantity) {
+        case Quantity::PeakCurrent:
+            to.ceiling_peak_ma = std::min(to.ceiling_peak_ma, most);
+            return {};
+        case Quantity::PhaseCharge:
+            to.ceiling_charge_uc = std::min(to.ceiling_charge_uc, most);
+            return {};
+        case Quantity::RmsCurrent5s:
+            to.ceiling_rms_ma = std::min(to.ceiling_rms_ma, most);
+            return {};
+        case Quantity::CommandVoltage:
+            if (amplitudeMax <= ceiling.max) return {};
+            return fail(ErrorCode::LimitExceeded, "the profile's amplitude_max_v {} V is above its ceiling of {} V",
+                        amplitudeMax, ceiling.max);
+        default:
+            return fail(ErrorCode::Unsupported,
+                        "the profile has a ceiling of {}; the board's encoder judges command voltage, peak current, "
+                        "charge per phase and 5 s RMS current",
+                        titleOf(ceiling.quantity));
+    }
+}
+
+Result<void> setOutput(te_profile& to, const EncoderOutput& from, const EncodingProfile& encoding) {
+    const SourceTraits& source = from.source;
+    if (from.load.keepsCharge()) {
+        return fail(ErrorCode::Unsupported, "a load of {}; the board's encoder accepts a resistance",
+                    from.load.nominal.text());
+    }
+    if (encoding.hold != Hold::Voltage) {
+        return fail(ErrorCode::Unsupported, "the profile holds the {} constant; the board's encoder holds the voltage",
+                    nameOf(encoding.hold));
+    }
+    to.current_source = word(source.drive == Drive::Current);
+    to.load_low_ohm = single(from.load.min.series.value());
+    to.load_ohm = single(from.load.nominal.series.value());
+    to.load_high_ohm = single(from.load.max.series.value());
+    to.output_step = single(source.amplitudeStep);
+    to.output_max = single(source.amplitudeMax);
+    const auto& stated = source.accuracy;
+    const auto width = relative(stated.phaseWidth, "phase width"), gap = relative(stated.gap, "gap");
+    for (const auto& [into, error] :
+         {std::pair{&to.amplitude_error, relative(stated.amplitude, "amplitude")}, std::pair{&to.width_error, width},
+          std::pair{&to.width_error, gap}, std::pair{&to.interval_error, relative(stated.interval, "interval")},
+          std::pair{&to.rate_error, relative(stated.rate, "rate")}}) {
+        if (!error) return failure(error);
+        *into = std::max(*into, *error);
+    }
+    to.ceiling_peak_ma = TE_MAX_PEAK_MA;
+    to.ceiling_charge_uc = TE_MAX_CHARGE_UC;
+    to.ceiling_rms_ma = TE_MAX_RMS_MA;
+    for (const auto& ceiling : from.ceilings) {
+        if (auto set = setCeiling(to, ceiling, encoding.amplitudeMax.value()); !set) return set;
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string_view wordsOf(te_refusal refusal) noexcept {
+    switch (refusal) {
+        case TE_ACCEPTED:
+            break;
+        case TE_BAD_LAYOUT:
+            return "another layout";
+        case TE_BAD_HASH:
+            return "the hash of another content";
+        case TE_BAD_STREAM:
+            return "a stream that it cannot take: acceleration of 1 to 3 axes at 99 to 4007 Hz, force at 20 to 300 Hz, "
+                   "2 taxels or more at up to 256 Hz are accepted";
+        case TE_BAD_ROUGHNESS:
+            return "a value of the roughness section that it cannot take";
+        case TE_BAD_ENCODING:
+            return "an amplitude above 40 V, an interval below 0.05 s, or another value of the encoding section that "
+                   "it "
+                   "cannot take";
+        case TE_BAD_TRAIN:
+            return "a train that makes no sense";
+        case TE_BAD_OUTPUT:
+            return "a load or a stimulator that it cannot take: resistances of 1 ohm to 1 Mohm and errors of at most "
+                   "20 % are accepted";
+        case TE_BAD_CEILING:
+            return "a ceiling above its own: 100 mA, 20 uC and 10 mA RMS";
+        case TE_ABOVE_COMMAND:
+            return "more than 40 V";
+        case TE_ABOVE_OUTPUT:
+            return "more than the device's largest amplitude, or one that its step cannot approach within 10 %";
+        case TE_ABOVE_PEAK:
+            return "more than the ceiling of peak current";
+        case TE_ABOVE_CHARGE:
+            return "more than the ceiling of charge per phase";
+        case TE_ABOVE_WIDTH:
+            return "a phase of less than 1 us or, at worst, more than 1000 us";
+        case TE_ABOVE_RATE:
+            return "more than 1000 pulses/s, or trains closer than 0.05 s or than they last";
+        case TE_ABOVE_DURATION:
+            return "a train of more than 0.5 s";
+        case TE_ABOVE_RMS:
+            return "more RMS current over 5 s than allowed";
+        case TE_METER:
+            return "more trains in the last seconds than it can count, or a clock that went back";
+    }
+    return {};
+}
+
+Result<te_profile> encoderProfile(std::span<const StreamInfo> streams, const RoughnessSettings& roughness,
+                                  const EncodingProfile& encoding, const EncoderOutput& output,
+                                  std::string_view serial) {
+    te_profile profile{};
+    profile.layout = TE_LAYOUT;
+    const StreamScaling scaling(streams, roughness.sensor, serial);
+    bool restFits = false;
+    for (std::size_t s = 0; s < streams.size(); ++s) {
+        setStream(profile, scaling, s);
+        restFits = restFits || (streams[s].kind == StreamKind::Acceleration && streams[s].unit == roughness.restUnit);
+    }
+    setRoughness(profile, roughness, restFits);
+    setEncoding(profile, encoding);
+    if (auto set = setOutput(profile, output, encoding); !set) return failure(set);
+    profile.hash = te_hash(&profile);
+    const auto state = std::make_unique<te_state>();
+    if (const auto refusal = te_init(state.get(), &profile); refusal != TE_ACCEPTED)
+        return fail(ErrorCode::Unsupported, "the board's encoder refuses {}", wordsOf(refusal));
+    return profile;
+}
+
+}  // namespace tacto
