@@ -1,6 +1,7 @@
 /* Whether the sensors are alive: late, ahead of time, repeating themselves, or out of all proportion. */
 #include "te_parts.h"
 
+#define SEARCHED 8U /* samples from search to search: what repeats itself is found by any */
 #define ENOUGH 40U /* repeats that no working sensor makes by chance, where more values change than repeat */
 /* A frame shows the middle of its window: half of 64 ms late, a hop, and the wait for the next sample of force. */
 #define FRAME_DELAY_NS INT64_C(78000000)
@@ -43,13 +44,14 @@ static uint32_t period_of(const struct te_repeat* repeat, uint32_t sample) {
 }
 
 static void watch_sample(struct te_repeat* repeat, uint32_t sample, int64_t before_ns) {
-    int same = repeat->lag > 0U && repeat->sample[(repeat->seen - repeat->lag) % TE_PERIODS] == sample;
-    if (!same) {
-        if (repeat->lag > 0U) count(&repeat->still, 0, before_ns);
+    const int followed = repeat->lag > 0U;
+    if (followed && repeat->sample[(repeat->seen - repeat->lag) % TE_PERIODS] == sample) {
+        count(&repeat->still, 1, before_ns);
+    } else if (followed || repeat->seen % SEARCHED == 0U) {
+        if (followed) count(&repeat->still, 0, before_ns);
         repeat->lag = period_of(repeat, sample);
-        same = repeat->lag > 0U;
+        count(&repeat->still, repeat->lag > 0U, before_ns);
     }
-    count(&repeat->still, same, before_ns);
     repeat->sample[repeat->seen % TE_PERIODS] = sample;
     ++repeat->seen;
     if (repeat->seen == 0U) repeat->seen = TE_PERIODS; /* numbers begin anew, in the same places */
