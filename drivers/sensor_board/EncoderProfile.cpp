@@ -1,7 +1,6 @@
 #include "drivers/sensor_board/EncoderProfile.h"
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 
 #include "core/dsp/SampleHistory.h"
@@ -23,10 +22,8 @@ static_assert(static_cast<int>(CurveKind::Logarithmic) == TE_LOGARITHMIC &&
 static_assert(static_cast<int>(PulseShape::AsymmetricBiphasic) == TE_ASYMMETRIC &&
               static_cast<int>(PulseShape::Monophasic) == TE_MONOPHASIC);
 
-/// The largest reading that is accepted, for a board that has no number larger than `float` can hold.
-float mostReading(StreamUnit unit) noexcept {
-    return single(std::min<double>(mostPlausible(unit), std::numeric_limits<float>::max()));
-}
+/// The largest reading that is accepted. Counts have no limit; here, one that keeps their squares finite.
+float mostReading(StreamUnit unit) noexcept { return single(std::min(mostPlausible(unit), 1e15)); }
 
 void setStream(te_profile& to, const StreamScaling& scaling, std::size_t s) noexcept {
     const StreamInfo& info = scaling.streams()[s];

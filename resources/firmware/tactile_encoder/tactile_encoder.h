@@ -18,7 +18,8 @@
  * late by more than what the ring holds (64 ms at 4 kHz) is held; the load is a resistance; |Z| is the profile's. For a
  * load on a bench, not for a person: this code knows no discomfort limit, and no impedance that changes.
  *
- * Times are int64_t nanoseconds of one clock that never steps back. Thread-safety: a state has one owner at a time.
+ * Times are int64_t nanoseconds of one clock that never steps back, from 0 to 73 years. Thread-safety: a state has one
+ * owner at a time.
  */
 #ifndef TACTILE_ENCODER_H
 #define TACTILE_ENCODER_H
@@ -39,7 +40,8 @@ extern "C" {
 #define TE_FRAMES 32U  /* transformed, and waiting for taxels */
 #define TE_FORCES 64U
 #define TE_BOOKED 128U
-#define TE_PERIODS 64U /* samples in the longest block whose repetition is found */
+#define TE_BLOCK 65536U /* samples in one te_samples() */
+#define TE_PERIODS 64U  /* samples in the longest block whose repetition is found */
 #ifndef TE_TAXELS
 #define TE_TAXELS 8U
 #endif
@@ -181,7 +183,7 @@ uint32_t te_hash(const struct te_profile* profile);
 enum te_refusal te_init(struct te_state* state, const struct te_profile* profile);
 
 /* Takes `count` samples, `step_ns` apart, one value per axis or taxel. Returns how many were taken: all, or none of a
- * stream that the profile does not have. */
+ * stream that the profile does not have, of a time that is none, or of more than TE_BLOCK. */
 uint32_t te_samples(struct te_state* state, enum te_stream stream, int64_t first_ns, int32_t step_ns,
                     const float* values, uint32_t count);
 

@@ -2,7 +2,8 @@
  * comparison is one that NaN fails. */
 #include "te_parts.h"
 
-#define ROUNDING 1.00001F /* what single precision may hide */
+#define ROUNDING 1.00001F  /* what single precision may hide */
+#define MOST_READING 1e15F /* whose square is finite */
 #define WINDOW_S 5.0F
 /* A clock that is 5 % fast, and the 0.1 s in which a train may begin: as the bench's gate counts. */
 #define MORE_S 0.4F
@@ -137,18 +138,18 @@ static enum te_refusal judge_streams(const struct te_profile* p) {
     uint32_t i;
     if (p->acceleration_hz != 0.0F) {
         if (!between(p->acceleration_hz, 99.0F, 4007.0F) || p->axes < 1U || p->axes > TE_AXES) return TE_BAD_STREAM;
-        if (!(p->acceleration_most > 0.0F)) return TE_BAD_STREAM;
+        if (!between(p->acceleration_most, 1e-6F, MOST_READING)) return TE_BAD_STREAM;
     }
     if (p->force_hz != 0.0F) {
         if (!between(p->force_hz, slowest, 300.0F) || !flag(p->force_newton)) return TE_BAD_STREAM;
         if (!te_is_number(p->force_scale) || p->force_scale == 0.0F || !te_is_number(p->force_offset))
             return TE_BAD_STREAM;
-        if (!(p->force_most > 0.0F)) return TE_BAD_STREAM;
+        if (!between(p->force_most, 1e-6F, MOST_READING)) return TE_BAD_STREAM;
     }
     if (p->taxels_hz != 0.0F) {
         if (!between(p->taxels_hz, 1.0F, (float)TE_TAXEL_HISTORY / 0.5F)) return TE_BAD_STREAM;
         if (p->taxels < 2U || p->taxels > TE_TAXELS || !flag(p->taxels_pascal)) return TE_BAD_STREAM;
-        if (!(p->taxels_most > 0.0F)) return TE_BAD_STREAM;
+        if (!between(p->taxels_most, 1e-6F, MOST_READING)) return TE_BAD_STREAM;
         for (i = 0; i < p->taxels; ++i) {
             if (!te_is_number(p->taxel_scale[i]) || p->taxel_scale[i] == 0.0F) return TE_BAD_STREAM;
             if (!te_is_number(p->taxel_offset[i])) return TE_BAD_STREAM;

@@ -2,7 +2,7 @@
 #include "te_parts.h"
 
 #define SEARCHED 8U /* samples from search to search: what repeats itself is found by any */
-#define ENOUGH 40U /* repeats that no working sensor makes by chance, where more values change than repeat */
+#define ENOUGH 40U  /* repeats that no working sensor makes by chance, where more values change than repeat */
 /* A frame shows the middle of its window: half of 64 ms late, a hop, and the wait for the next sample of force. */
 #define FRAME_DELAY_NS INT64_C(78000000)
 #define ARRAY 4U /* the least taxels that a filter does not make all equal */
@@ -107,6 +107,7 @@ uint32_t te_fault(const struct te_state* state, int64_t now_ns) {
     uint32_t fault = 0U;
     uint32_t i;
     if (!state->accepted) return TE_FAULT_PROFILE;
+    if (now_ns < 0 || now_ns > TE_LAST_NS) return TE_FAULT_FUTURE;
     if (state->stopped) fault |= TE_FAULT_STOPPED;
     for (i = 0; i < (uint32_t)TE_STREAMS; ++i) {
         if (rates[i] > 0.0F) fault |= age_fault(state->health[i].newest_ns, now_ns, 0);

@@ -350,7 +350,7 @@ uint32_t te_samples(struct te_state* state, enum te_stream stream, int64_t first
                     const float* values, uint32_t count) {
     uint32_t columns;
     uint32_t i;
-    if (!state->accepted) return 0U;
+    if (!state->accepted || first_ns < 0 || first_ns > TE_LAST_NS || count > TE_BLOCK) return 0U;
     columns = columns_of(&state->profile, stream);
     if (columns == 0U) return 0U;
     for (i = 0; i < count; ++i) push(state, stream, first_ns + (int64_t)i * step_ns, values + i * columns, columns);
