@@ -1,7 +1,7 @@
 # Writes the guide as HTML pages that any browser reads:
 #   cmake -DPAGES=DIR -DREFERENCE=FILE.md -DOUT=DIR -DCMARK=PROGRAM -P book.cmake
 # PAGES has the Markdown pages and, beside it, their pictures; REFERENCE is what `protocols --reference` prints.
-set(contents "")
+set(contents "<a href=\"index.html\">The guide</a>\n")
 file(READ ${PAGES}/index.md index)
 string(REGEX MATCHALL "\\[[^]]*\\]\\([a-z-]+\\.md\\)" links "${index}")
 foreach(link ${links})
@@ -23,6 +23,7 @@ foreach(page ${pages} ${REFERENCE})
     string(REGEX MATCH "<h1>([^\n]*)</h1>" heading "${body}")
     set(title "${CMAKE_MATCH_1}")
     get_filename_component(name ${page} NAME_WE)
+    string(REPLACE "href=\"${name}.html\"" "href=\"${name}.html\" aria-current=\"page\"" nav "${contents}")
     file(CONFIGURE OUTPUT ${OUT}/${name}.html CONTENT [[<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -32,8 +33,7 @@ foreach(page ${pages} ${REFERENCE})
 <link rel="stylesheet" href="book.css">
 </head>
 <body>
-<nav><a href="index.html">The guide</a>
-@contents@</nav>
+<nav>@nav@</nav>
 <main>
 @body@</main>
 </body>

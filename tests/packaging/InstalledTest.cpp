@@ -127,6 +127,27 @@ TEST_F(Installed, TheGuideLiesWhereDocumentsDo) {
     EXPECT_THAT(text("share/doc/tactoscope/copyright"), HasSubstr("License: GPL-3.0-or-later"));
 }
 
+TEST_F(Installed, EachLinkOfTheGuideLeadsToAFileAndEachPageIsMarkedInTheContents) {
+    const auto guide = root() / "share/doc/tactoscope/guide";
+    const std::regex link(R"re((?:href|src)="([^"#]*)(?:#([^"]*))?")re");
+    std::size_t links = 0;
+    for (const auto& entry : fs::directory_iterator(guide)) {
+        if (entry.path().extension() != ".html") continue;
+        const auto page = text(entry.path());
+        const auto name = entry.path().filename().string();
+        for (std::sregex_iterator found(page.begin(), page.end(), link), end; found != end; ++found, ++links) {
+            const auto target = (*found)[1].str(), part = (*found)[2].str();
+            if (target.find("://") != std::string::npos) continue;
+            ASSERT_TRUE(fs::exists(guide / target)) << name << " leads to " << target;
+            if (!part.empty())
+                EXPECT_THAT(text(target.empty() ? entry.path() : guide / target), HasSubstr("id=\"" + part + '"'))
+                    << name << " leads to " << target << '#' << part;
+        }
+        EXPECT_THAT(page, HasSubstr("href=\"" + name + "\" aria-current=\"page\"")) << name;
+    }
+    EXPECT_GT(links, 100U);
+}
+
 TEST_F(Installed, EveryProgramHasAManPage) {
     if (!isThere("help2man")) GTEST_SKIP() << "help2man is not installed: no man pages";
     for (const auto& each : fs::directory_iterator(root() / "bin")) {
