@@ -132,8 +132,9 @@ void AnswerTarget::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     const auto& c = colours();
-    painter.setPen(QPen(isChecked() ? c.text : c.edge, isChecked() ? 2 * kEdge : kEdge));
-    painter.setBrush(isChecked() ? c.selection : c.base);
+    const bool on = isChecked() || isDown();
+    painter.setPen(QPen(on ? c.text : c.edge, on ? 2 * kEdge : kEdge));
+    painter.setBrush(on ? c.selection : c.base);
     painter.drawRoundedRect(QRectF(rect()).adjusted(1, 1, -1, -1), kRadius, kRadius);
 
     const int px = wordsPx();

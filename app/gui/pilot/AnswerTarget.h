@@ -1,5 +1,6 @@
 // AnswerTarget.h - one large answer on the participant's screen, with its key and, in a circle, its game-pad button. A
-// press by mouse or finger answers when it goes down.
+// press by mouse or finger answers when it goes down. A target that is chosen or held is filled and has a thicker edge:
+// setDown() shows that it is held, whatever holds it.
 #pragma once
 
 #include <QAbstractButton>

@@ -183,6 +183,7 @@ void ParticipantWindow::closeQuestion(quint64 id) {
 }
 
 void ParticipantWindow::showState() {
+    face_->hold().setDown(desk_.holding());
     face_->show({.screen = screen_,
                  .asked = asking_ ? std::optional(prompt_) : std::nullopt,
                  .keys = keys_,
@@ -239,6 +240,7 @@ void ParticipantWindow::pressHold() {
     if (!asking_ || !shown_ || prompt_.kind != PromptKind::Hold) return;
     const auto button = heldKey_ >= kFirstButton ? std::optional(heldKey_ - kFirstButton) : std::nullopt;
     if (!desk_.setHolding(true, button)) return;
+    face_->hold().setDown(true);
     PilotAnswer answer;
     answer.keys.emplace_back("held");
     give(std::move(answer), std::chrono::steady_clock::now());
@@ -248,6 +250,7 @@ void ParticipantWindow::letGo() {
     heldKey_ = 0;
     if (!desk_.holding()) return;
     desk_.setHolding(false);  // first, so that a presentation that begins now sees it
+    face_->hold().setDown(false);
     if (desk_.mayLetGo()) return;
     stop_(kParticipantLetGo);
     face_->hold().hide();

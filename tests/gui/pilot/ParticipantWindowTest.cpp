@@ -206,6 +206,24 @@ TEST_F(Seated, LettingGoWhileLevelsRiseStops) {
     EXPECT_FALSE(desk.holding());
 }
 
+TEST_F(Seated, TheHoldTargetShowsWhetherItIsHeld) {
+    RecordProperty("hazard", "H6");
+    auto* hold = window.findChild<gui::AnswerTarget*>("hold");
+    for (const bool byKey : {true, false}) {
+        ASSERT_NO_FATAL_FAILURE(ask(holdPrompt()));
+        const auto free = hold->grab().toImage();
+        byKey ? QTest::keyPress(window.windowHandle(), Qt::Key_H) : QTest::mousePress(hold, Qt::LeftButton);
+        ASSERT_TRUE(answered());
+        EXPECT_NE(hold->grab().toImage(), free) << "by key: " << byKey;
+        ASSERT_NO_FATAL_FAILURE(ask(strengthPrompt()));
+        EXPECT_NE(hold->grab().toImage(), free) << "also beside the next question";
+        byKey ? QTest::keyRelease(window.windowHandle(), Qt::Key_H) : QTest::mouseRelease(hold, Qt::LeftButton);
+        EXPECT_EQ(hold->grab().toImage(), free);
+        key(Qt::Key_1);
+        ASSERT_TRUE(answered());
+    }
+}
+
 TEST_F(Seated, LettingGoIsHeardWhateverHasTheFocus) {
     RecordProperty("hazard", "H6");
     auto* strip = new QWidget;
