@@ -19,6 +19,12 @@ constexpr Seconds kReasonTimeout{300};
 /// The check pulse did not find the load for which the bench is armed.
 bool isUnseated(const Error& why) { return why.code == ErrorCode::NotArmed || why.code == ErrorCode::LimitExceeded; }
 
+/// Returns the bench's sentence about a fault without its first word, which the sentence around it says already.
+std::string_view withoutFaultWord(std::string_view said) {
+    constexpr std::string_view kWord = "fault: ";
+    return said.starts_with(kWord) ? said.substr(kWord.size()) : said;
+}
+
 }  // namespace
 
 // Stops
@@ -365,12 +371,14 @@ Result<void> PilotOutput::noteParticipantStop(const std::string& during, const c
 Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& why) {
     auto& record = stage_.record();
     if (auto kept = record.write(row::kFault, during, {{"why", why.message}}); !kept) return kept;
+    const bool slow = stage_.bench().telemetry().fault == FaultCause::LoopSilent;
     if (record.count(row::kFault) >= kMaxFaults)
-        return stage_.end(PilotEnd::Stopped, fmt::format("{}: {}", kSecondFault, why.message));
+        return stage_.end(PilotEnd::Stopped,
+                          fmt::format("{}: {}", kSecondFault,
+                                      slow ? "the computer was too slow for 0.1 s" : withoutFaultWord(why.message)));
     if (const char* by = stops_.takeBy(); by != nullptr && isParticipants(by)) {  // the participant also pressed STOP
         if (auto noted = noteParticipantStop(during, by); !noted) return noted;
     }
-    const bool slow = stage_.bench().telemetry().fault == FaultCause::LoopSilent;
     auto cause = withoutNumbers(why.message);  // numbers may reveal the train to the participant; the row keeps them
     for (int tries = 1;; ++tries) {
         const bool computer = slow && tries == 1;

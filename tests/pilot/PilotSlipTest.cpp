@@ -202,5 +202,15 @@ TEST_F(PilotSlipTest, ASlowComputerIsNoFaultOfTheElectrodes) {
     EXPECT_EQ(record_->count(row::kFault), 1U);
 }
 
+TEST_F(PilotSlipTest, TheSecondFaultSaysOnceWhatItWas) {
+    RecordProperty("hazard", "H12");
+    someone_.onShow = [&] {
+        if (someone_.shown.back().state == ScreenState::Feel)
+            std::static_pointer_cast<VirtualClock>(clock_)->sleepFor(toInstant(Seconds(1)));  // counts as silence
+    };
+    EXPECT_THAT(stage_->trial(trial()),
+                test::refusedSaying("a second fault ends the session: the computer was too slow for 0.1 s"));
+}
+
 }  // namespace
 }  // namespace tacto::test
