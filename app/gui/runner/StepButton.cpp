@@ -32,6 +32,10 @@ void StepButton::setName(const QString& name) {
     say();
 }
 
+void StepButton::setNumber(int number) {
+    if (std::exchange(number_, number) != number) update();
+}
+
 void StepButton::setState(StepList::State state) {
     if (std::exchange(state_, state) != state) say();
 }

@@ -15,6 +15,8 @@ public:
     /// `number`: counted from 1.
     StepButton(const QString& name, int number, Place place, QWidget* parent);
     void setName(const QString& name);
+    void setNumber(int number);
+    [[nodiscard]] int number() const { return number_; }
     void setState(StepList::State state);
     [[nodiscard]] StepList::State state() const { return state_; }
     void setNote(const QString& note);
@@ -40,7 +42,7 @@ private:
     StepList::State state_ = StepList::State::ToDo;
     QString note_;
     QString outOfReach_;
-    const int number_;
+    int number_;
     const Place place_;
     bool low_ = false;
     bool across_ = false;

@@ -46,6 +46,9 @@ void StepList::setName(int step, const QString& name) {
 
 void StepList::setStepVisible(int step, bool visible) {
     buttons_.at(std::size_t(step))->setVisible(visible);
+    int number = 0;
+    for (auto* button : buttons_)
+        if (!button->isHidden()) button->setNumber(++number);
     placeAcross();
 }
 

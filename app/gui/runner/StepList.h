@@ -25,7 +25,7 @@ public:
     /// like a button.
     void setOutOfReach(int step, const QString& why);
     void setName(int step, const QString& name);
-    /// Shows or hides a step, as some procedures lack one.
+    /// Shows or hides a step, as some procedures lack one; the others are numbered without it.
     void setStepVisible(int step, bool visible);
     /// Marks the step of the visible page.
     void setShown(int step);

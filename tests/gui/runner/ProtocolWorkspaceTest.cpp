@@ -622,6 +622,8 @@ TEST_F(Workspace, AStepThatWasReachedCanBeGoneBackTo) {
     EXPECT_THAT(step("Result").toolTip().toStdString(), HasSubstr("press Run"));
     EXPECT_EQ(step("Settings").state(), gui::StepList::State::UnderWay);
     EXPECT_EQ(find<gui::StepButton>(*workspace, "Known reference"), nullptr) << "it reads none";
+    int number = 0;
+    for (const char* name : {"Wiring", "Settings", "Run", "Result", "Sign"}) EXPECT_EQ(step(name).number(), ++number);
     EXPECT_THAT(primaries(), testing::ElementsAre("Run"));
     type("repeats", "2");
     click(the<QPushButton>("runButton"));
