@@ -92,9 +92,10 @@ void PassphraseDialog::judge() {
                                              : Passphrase::from(first_->typed());
         const auto strong = typed ? typed->checkStrength(study_.toStdString()) : Result<void>();
         const bool differs = !second_->isEmpty() && !first_->equals(*second_);
-        trouble_->setText(!strong   ? sentence(strong.error())
-                          : differs ? tr("The two are not the same yet.")
-                                    : QString());
+        trouble_->setText(!strong             ? sentence(strong.error())
+                          : differs           ? tr("The two are not the same yet.")
+                          : first_->isEmpty() ? tr("Enter the passphrase twice; four words drawn at random are enough.")
+                                              : QString());
         whole = whole && strong && first_->equals(*second_);
     }
     go_->setEnabled(whole && !looking_);

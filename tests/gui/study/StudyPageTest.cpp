@@ -304,6 +304,8 @@ TEST_F(StudyPageTest, ThePassphraseIsJudgedAndChangedAndThePageSaysWhereTheKeysL
             QTest::keyClicks(asks->findChild<QLineEdit*>(name), text);
         }
     };
+    EXPECT_FALSE(go->isEnabled());
+    EXPECT_THAT(said(*asks, "passphraseTrouble"), HasSubstr("four words")) << "what would do stands there before";
     type(kWords, "summer 2026");
     EXPECT_FALSE(go->isEnabled());
     EXPECT_THAT(said(*asks, "passphraseTrouble"), HasSubstr("at least 40 bits"));
