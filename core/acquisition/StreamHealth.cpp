@@ -149,31 +149,32 @@ void Standstill::feed(const SampleBlock& block) noexcept {
     }
 }
 
-std::uint64_t Standstill::History::push(std::uint32_t number, double value) noexcept {
+std::uint64_t Standstill::History::push(std::uint64_t number, double value) noexcept {
     const auto bits = std::bit_cast<std::uint64_t>(value);
-    auto& bucket = newest[bits * 0x9E37'79B9'7F4A'7C15U >> (64 - std::bit_width(kBuckets - 1))];
-    std::uint64_t same = 0;
-    for (auto at = bucket; at != 0 && number - at <= kPeriods; at = earlier[at % kPeriods])
-        same |= std::uint64_t{values[at % kPeriods] == bits ? 1U : 0U} << (number - at - 1);
-    values[number % kPeriods] = bits;
-    earlier[number % kPeriods] = std::exchange(bucket, number);
+    const auto index = static_cast<std::uint8_t>(bits * 0x9E37'79B9'7F4A'7C15U >> 56U);
+    auto& bucket = buckets[index];
+    const auto slot = number % kPeriods;
+    const auto here = std::uint64_t{1} << (kPeriods - slot) % kPeriods;
+    auto same = std::rotl(bucket.where, static_cast<int>((number - 1) % kPeriods));
+    if (bucket.where != 0 && bucket.value != bits) bucket.mixedUntil = number + kPeriods;
+    if (number <= bucket.mixedUntil) {
+        for (auto left = same; left != 0; left &= left - 1) {
+            const auto period = static_cast<std::uint64_t>(std::countr_zero(left)) + 1;
+            if (values[(number - period) % kPeriods] != bits) same &= ~(left & (0 - left));
+        }
+    }
+    buckets[bucketOf[slot]].where &= ~here;
+    bucket.where |= here;
+    bucket.value = bits;
+    values[slot] = bits;
+    bucketOf[slot] = index;
     return same;
 }
 
 void Standstill::compare(const double* values) noexcept {
-    // Numbers begin anew before 32 bits overflow, as of the samples just before, which become 1 to kPeriods.
-    constexpr std::uint32_t kNumbers = 0xFFFF'FFFF / kPeriods * kPeriods - kPeriods;
-    const auto number = static_cast<std::uint32_t>(kPeriods + 1 + seen_ % kNumbers);
-    if (number == kPeriods + 1 && seen_ > 0) {
-        const auto renumber = [](std::uint32_t& at) { at = at > kNumbers ? at - kNumbers : 0; };
-        for (auto& history : before_) {
-            std::ranges::for_each(history.earlier, renumber);
-            std::ranges::for_each(history.newest, renumber);
-        }
-    }
     std::uint64_t all = ~std::uint64_t{0};
     for (std::size_t c = 0; c < channels_; ++c) {
-        const auto same = before_[c].push(number, values[c]);
+        const auto same = before_[c].push(seen_ + kPeriods, values[c]);
         if (eachChannel_) countAll(1 + c, same);
         all &= same;
     }
@@ -189,14 +190,13 @@ void Standstill::countAll(std::size_t row, std::uint64_t same) noexcept {
     same_[row] = same;
 }
 
-/// Repeats during a standstill are not counted as noise of the value.
+/// Repeats during a standstill are not counted as noise of the value. Without branches on `same`, which is chance.
 void Standstill::count(Repeats& one, std::size_t period, bool same) const noexcept {
-    if (same) {
-        if (one.run++ == 0) one.since_s = last_s_;
-    } else if (one.run > 0) {
-        one.repeated += one.run > kEnough && moves(one, period) ? kEnough : one.run;
-        one.matched += std::exchange(one.run, 0);
-    }
+    const auto ended = same ? 0 : one.run;
+    one.repeated += ended > kEnough && moves(one, period) ? kEnough : ended;
+    one.matched += ended;
+    one.since_s = same && one.run == 0 ? last_s_ : one.since_s;
+    one.run = same ? one.run + 1 : 0;
 }
 
 std::uint64_t Standstill::changes(const Repeats& one, std::size_t period) const noexcept {

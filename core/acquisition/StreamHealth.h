@@ -107,15 +107,20 @@ private:
         std::uint64_t run = 0;                    // length of the present repetition
         std::uint64_t matched = 0, repeated = 0;  // earlier: all values, and those that noise may have repeated
     };
-    /// The last kPeriods values of a channel. Values in one bucket are linked, newest first, so that finding those that
-    /// equal a new one takes a look at few.
+    /// The last kPeriods values of a channel. Each value has a bucket, which knows where among them it was; values that
+    /// share a bucket are told apart one by one.
     struct History {
-        static constexpr std::size_t kBuckets = 128;
-        std::array<std::uint64_t, kPeriods> values{};   // bits of the sample n at [n % kPeriods], like `earlier`
-        std::array<std::uint32_t, kPeriods> earlier{};  // number of the sample before it in its bucket; 0: none
-        std::array<std::uint32_t, kBuckets> newest{};   // number of the newest sample in each bucket; 0: none
+        static constexpr std::size_t kBuckets = 256;
+        struct Bucket {
+            std::uint64_t where = 0;       // bit (-n mod kPeriods) for each sample n of the last kPeriods
+            std::uint64_t value = 0;       // bits of the newest
+            std::uint64_t mixedUntil = 0;  // the sample from which on all of them are equal
+        };
+        std::array<Bucket, kBuckets> buckets{};
+        std::array<std::uint64_t, kPeriods> values{};   // bits of the sample n at [n % kPeriods], like `bucketOf`
+        std::array<std::uint8_t, kPeriods> bucketOf{};  // where it is noted
         /// Keeps the value of sample `number`. Sets bit (period - 1) if the value `period` samples before is equal.
-        [[nodiscard]] std::uint64_t push(std::uint32_t number, double value) noexcept;
+        [[nodiscard]] std::uint64_t push(std::uint64_t number, double value) noexcept;
     };
     void compare(const double* values) noexcept;
     void countAll(std::size_t row, std::uint64_t same) noexcept;
