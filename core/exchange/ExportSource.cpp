@@ -156,6 +156,48 @@ json streamJson(const ExportStream& stream) {
     return out;
 }
 
+/// Finds the train that each capture shows: the last one from its begin to its trigger, or to its end without one.
+class ShownTrains {
+public:
+    void add(const SessionCaptureInfo& capture) {
+        constexpr double kLatency_s = 0.02;  // from the command to the pulse
+        const TimeInterval during{capture.start_s - kLatency_s,
+                                  std::isnan(capture.trigger_s)
+                                      ? capture.start_s + static_cast<double>(capture.samples) / capture.rate_hz
+                                      : capture.trigger_s};
+        if (std::isfinite(during.begin_s) && std::isfinite(during.end_s)) {
+            all_.push_back({during, count_, {}});
+            longest_s_ = std::max(longest_s_, during.end_s - during.begin_s);
+        }
+        ++count_;
+    }
+    /// Called when all captures are there.
+    void sort() { std::ranges::sort(all_, {}, beginOf); }
+    void see(double train_s, double told) {
+        for (auto shown = std::ranges::upper_bound(all_, train_s, {}, beginOf);
+             shown != all_.begin() && train_s - (--shown)->during.begin_s <= longest_s_;) {
+            if (shown->during.contains(train_s))
+                shown->train = std::max(shown->train.value_or(std::pair(train_s, told)), std::pair(train_s, told));
+        }
+    }
+    /// In the order of add().
+    void tell(std::vector<ExportCapture>& captures) const {
+        for (const auto& shown : all_)
+            if (shown.train) captures[shown.capture].told = shown.train->second;
+    }
+
+private:
+    struct Shown {
+        TimeInterval during;
+        std::size_t capture;
+        std::optional<std::pair<double, double>> train;  ///< when, and the amplitude
+    };
+    static double beginOf(const Shown& shown) noexcept { return shown.during.begin_s; }
+    std::vector<Shown> all_;
+    std::size_t count_ = 0;
+    double longest_s_ = 0;
+};
+
 }  // namespace
 
 std::optional<std::size_t> ExportStream::channelR() const noexcept {
@@ -181,7 +223,7 @@ struct ExportSource::State {
     std::vector<SessionTrial> trials;
     std::vector<SessionRow> events;
     ExportTable trialTable;
-    std::vector<std::pair<double, double>> told;  ///< when each train began, and the amplitude that was sent
+    ShownTrains shown;
     std::uint64_t trains = 0;
     json description;
 
@@ -324,7 +366,9 @@ Result<void> ExportSource::State::readRows() {
                             .simulated = info.simulated,
                             .samples = info.samples,
                             .channels = info.channels});
+        shown.add(info);
     }
+    shown.sort();
     return {};
 }
 
@@ -454,11 +498,11 @@ Result<ExportSource> ExportSource::open(const std::filesystem::path& session, st
     auto counted = source.forEachTrain([&](const ExportTrain& train) -> Result<void> {
         ++source.state_->trains;
         if (const double told = std::isnan(train.told_ma) ? train.told_v : train.told_ma; !std::isnan(told))
-            source.state_->told.emplace_back(train.time_s, told);
+            source.state_->shown.see(train.time_s, told);
         return {};
     });
     if (!counted) return failure(counted);
-    std::ranges::sort(source.state_->told);
+    source.state_->shown.tell(source.state_->captures);
     return source;
 }
 
@@ -488,15 +532,6 @@ std::vector<const ExportTable*> ExportSource::tables() const { return {&trials()
 const std::vector<SessionTrial>& ExportSource::trialRows() const noexcept { return state_->trials; }
 const std::vector<SessionRow>& ExportSource::eventRows() const noexcept { return state_->events; }
 std::uint64_t ExportSource::trainCount() const noexcept { return state_->trains; }
-double ExportSource::toldIn(const Capture& capture) const noexcept {
-    constexpr double kLatency_s = 0.02;  // from the command to the pulse
-    const double end_s = capture.start_s + static_cast<double>(capture.samples()) / capture.rate_hz;
-    const auto behind = std::ranges::upper_bound(
-        state_->told, std::isnan(capture.trigger_s) ? end_s : capture.trigger_s, {}, &std::pair<double, double>::first);
-    if (behind == state_->told.begin()) return kNaN;
-    const auto& [begun_s, told] = *std::prev(behind);
-    return begun_s >= capture.start_s - kLatency_s ? told : kNaN;
-}
 Result<void> ExportSource::goOn() const { return state_->goOn(); }
 
 bool ExportSource::calibratedR(double t_s) const noexcept {

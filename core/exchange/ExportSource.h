@@ -72,6 +72,7 @@ struct ExportCapture {
     bool simulated = false;
     std::uint64_t samples = 0;
     std::vector<std::string> channels;
+    double told = kNaN;  ///< amplitude in V or mA that the device was sent for the train that it shows; NaN: none
 };
 
 /// One train of pulses or burst of vibration, as it was planned, sent and reported.
@@ -173,8 +174,6 @@ public:
     [[nodiscard]] Result<void> forEachRow(const ExportTable& table,
                                           const std::function<Result<void>(std::span<const ExportCell>)>& visit) const;
     [[nodiscard]] Result<void> forEachTrain(const std::function<Result<void>(const ExportTrain&)>& visit) const;
-    /// The amplitude in V or mA that the device was sent for the train that the capture shows; NaN if it shows none.
-    [[nodiscard]] double toldIn(const Capture& capture) const noexcept;
     [[nodiscard]] std::uint64_t trainCount() const noexcept;
     [[nodiscard]] const std::vector<SessionTrial>& trialRows() const noexcept;
     [[nodiscard]] const std::vector<SessionRow>& eventRows() const noexcept;

@@ -445,6 +445,8 @@ Result<std::vector<SessionCaptureInfo>> SessionReader::captures() const {
         info.at = row.at;
         if (const auto trial = countOr(row.body, "trial"); trial != 0) info.trial = static_cast<int>(trial);
         info.rate_hz = numberOr(row.body, "rate_hz");
+        info.start_s = numberOr(row.body, "start_s");
+        info.trigger_s = numberOr(row.body, "trigger_s");
         info.samples = countOr(row.body, "samples");
         info.simulated = flagOr(row.body, "simulated");
         info.sealed = row.sealed;

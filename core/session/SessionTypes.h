@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/Statistics.h"
 #include "core/base/Units.h"
 #include "core/base/Words.h"
 
@@ -131,6 +132,7 @@ struct SessionCaptureInfo {
     Instant at{0};
     std::optional<int> trial;  ///< number of the trial that the capture belongs to
     double rate_hz = 0;
+    double start_s = kNaN, trigger_s = kNaN;  ///< as in Capture
     std::uint64_t samples = 0;
     std::vector<std::string> channels;
     bool simulated = false;

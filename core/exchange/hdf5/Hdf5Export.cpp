@@ -108,13 +108,12 @@ Result<void> writeTable(const ExportSource& source, const ExportTable& table, Hd
     return steps.result();
 }
 
-Result<void> writeCapture(const ExportSource& source, const Capture& capture, const ExportCapture& about,
-                          Hdf5File& file) {
+Result<void> writeCapture(const Capture& capture, const ExportCapture& about, Hdf5File& file) {
     auto group = file.group("captures/" + about.name);
     if (!group) return failure(group);
     Steps steps;
     steps << group->attribute("rate_hz", capture.rate_hz) << group->attribute("start_s", capture.start_s)
-          << group->attribute("trigger_s", capture.trigger_s) << group->attribute("told", source.toldIn(capture))
+          << group->attribute("trigger_s", capture.trigger_s) << group->attribute("told", about.told)
           << group->attribute("simulated", capture.simulated)
           << group->attribute("about", dumpJson(describeCapture(capture)));
     if (about.trial) steps << group->attribute("trial", double(*about.trial));
@@ -166,7 +165,7 @@ Result<void> writeAll(const ExportSource& source, Hdf5File& file, ExportReport& 
         if (!steps) return steps.result();
         const auto capture = source.capture(each);
         if (!capture) return failure(capture);
-        if (*capture) steps << writeCapture(source, **capture, each, file);
+        if (*capture) steps << writeCapture(**capture, each, file);
     }
     return steps.result();
 }
