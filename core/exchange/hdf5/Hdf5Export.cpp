@@ -50,9 +50,9 @@ Result<void> writeStream(const ExportSource& source, const ExportStream& stream,
           << group->attribute("simulated", stream.simulated);
     SetNames names;
     std::vector<Hdf5Column> columns;
-    columns.emplace_back(group->id(), "time", Hdf5Column::Type::Double, stream.samples);
+    columns.emplace_back(file, *group, "time", Hdf5Column::Type::Double, stream.samples);
     for (const auto& channel : stream.channels)
-        columns.emplace_back(group->id(), names.add(channel.name), Hdf5Column::Type::Double, stream.samples);
+        columns.emplace_back(file, *group, names.add(channel.name), Hdf5Column::Type::Double, stream.samples);
     const auto width = stream.channels.size();
     steps << source.forEachChunk(stream, [&](const SampleBlock& block) -> Result<void> {
         Steps added;
@@ -86,7 +86,7 @@ Result<void> writeTable(const ExportSource& source, const ExportTable& table, Hd
     SetNames names;
     std::vector<Hdf5Column> columns;
     for (const auto& column : table.columns) {
-        columns.emplace_back(group->id(), columns.empty() ? "time" : names.add(column.at),
+        columns.emplace_back(file, *group, columns.empty() ? "time" : names.add(column.at),
                              ExportTable::holdsText(column) ? Hdf5Column::Type::Text : Hdf5Column::Type::Double);
     }
     steps << source.forEachRow(table, [&](std::span<const ExportCell> cells) {
@@ -118,7 +118,7 @@ Result<void> writeCapture(const Capture& capture, const ExportCapture& about, Hd
           << group->attribute("about", dumpJson(describeCapture(capture)));
     if (about.trial) steps << group->attribute("trial", double(*about.trial));
     const auto samples = capture.samples();
-    Hdf5Column time(group->id(), "time", Hdf5Column::Type::Double, samples);
+    Hdf5Column time(file, *group, "time", Hdf5Column::Type::Double, samples);
     for (std::size_t i = 0; steps && i < samples; ++i) steps << time.add(capture.start_s + double(i) / capture.rate_hz);
     if (!steps) return steps.result();
     auto scale = time.end();
@@ -127,7 +127,7 @@ Result<void> writeCapture(const Capture& capture, const ExportCapture& about, Hd
     SetNames names;
     std::vector<Hdf5Object> sets;
     for (const auto& channel : capture.channels) {
-        Hdf5Column column(group->id(), names.add(channel.name), Hdf5Column::Type::Float, samples);
+        Hdf5Column column(file, *group, names.add(channel.name), Hdf5Column::Type::Float, samples);
         steps << column.add(channel.samples);
         if (!steps) return steps.result();
         auto set = column.end();

@@ -1,6 +1,7 @@
 #include "core/exchange/hdf5/Hdf5File.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 #include <hdf5_hl.h>
 
@@ -9,8 +10,6 @@ namespace tacto {
 namespace {
 
 constexpr std::size_t kMaxTextBytes = std::size_t{1} << 22;  // that a column of texts collects
-constexpr std::size_t kChunkCacheBytes = std::size_t{4} << 20;
-constexpr unsigned kDeflate = 4;
 
 std::mutex& libraryLock() {
     static std::mutex lock;
@@ -101,8 +100,8 @@ Result<void> Hdf5Object::attribute(const char* name, bool flag) {
     return writeAttribute(id_, name, H5T_STD_I32LE, H5T_NATIVE_INT, space, &value);
 }
 
-Hdf5Column::Hdf5Column(hid_t group, std::string name, Type type, std::uint64_t rows)
-    : group_(group), name_(hdf5Name(name)), type_(type), rows_(rows) {}
+Hdf5Column::Hdf5Column(Hdf5File& file, const Hdf5Object& group, std::string name, Type type, std::uint64_t rows)
+    : chunk_(file.chunk_.get()), group_(group.id()), name_(hdf5Name(name)), type_(type), rows_(rows) {}
 
 std::size_t Hdf5Column::collected() const noexcept {
     return type_ == Type::Double ? doubles_.size() : type_ == Type::Float ? floats_.size() : texts_.size();
@@ -151,25 +150,23 @@ Result<void> Hdf5Column::make(bool last) {
     const auto known = rows_ != kUnknownRows ? rows_ : last ? collected() : kUnknownRows;
     const hsize_t now = known == kUnknownRows ? 0 : known;
     const hsize_t most = known == kUnknownRows || known == 0 ? H5S_UNLIMITED : known;
-    const hsize_t chunk = std::min<hsize_t>(kChunkRows, most);
+    chunkRows_ = std::min<hsize_t>(kChunkRows, most);
     const auto space = owned(H5Screate_simple(1, &now, &most), H5Sclose);
     const auto properties = owned(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_chunk(properties, 1, &chunk);
+    H5Pset_chunk(properties, 1, &chunkRows_);
     H5Pset_obj_track_times(properties, false);
     H5Pset_attr_creation_order(properties, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED);
     H5Pset_fill_time(properties, H5D_FILL_TIME_IFSET);
     if (type_ != Type::Text) {  // the library filters no texts: such a data set holds only where they are
         H5Pset_shuffle(properties);
-        H5Pset_deflate(properties, kDeflate);
+        H5Pset_deflate(properties, Hdf5Chunk::kDeflate);
         H5Pset_fletcher32(properties);
     }
-    const auto access = owned(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
-    H5Pset_chunk_cache(access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, kChunkCacheBytes, 1);
     const auto text = textType(H5T_VARIABLE);
     const hid_t stored = type_ == Type::Double  ? H5T_IEEE_F64LE
                          : type_ == Type::Float ? H5T_IEEE_F32LE
                                                 : static_cast<hid_t>(text);
-    set_ = owned(H5Dcreate2(group_, name_.c_str(), stored, space, H5P_DEFAULT, properties, access), H5Dclose);
+    set_ = owned(H5Dcreate2(group_, name_.c_str(), stored, space, H5P_DEFAULT, properties, H5P_DEFAULT), H5Dclose);
     if (set_ < 0) return because("make a data set");
     return {};
 }
@@ -182,25 +179,38 @@ Result<void> Hdf5Column::write(bool last) {
     if (count == 0) return {};
     const hsize_t from = written_, behind = from + count;
     if (rows_ == kUnknownRows && H5Dset_extent(set_, &behind) < 0) return because("write a data set");
-    const auto where = owned(H5Dget_space(set_), H5Sclose);
-    const auto memory = owned(H5Screate_simple(1, &count, nullptr), H5Sclose);
-    if (H5Sselect_hyperslab(where, H5S_SELECT_SET, &from, nullptr, &count, nullptr) < 0)
-        return because("write a data set");
-    std::vector<const char*> texts;
-    for (const auto& each : texts_) texts.push_back(each.c_str());
-    const auto text = textType(H5T_VARIABLE);
-    const hid_t given = type_ == Type::Double  ? H5T_NATIVE_DOUBLE
-                        : type_ == Type::Float ? H5T_NATIVE_FLOAT
-                                               : static_cast<hid_t>(text);
-    const void* values = type_ == Type::Double  ? static_cast<const void*>(doubles_.data())
-                         : type_ == Type::Float ? static_cast<const void*>(floats_.data())
-                                                : static_cast<const void*>(texts.data());
-    if (H5Dwrite(set_, given, memory, where, H5P_DEFAULT, values) < 0) return because("write a data set");
+    const auto stored = type_ == Type::Double  ? writeChunk(from, doubles_)
+                        : type_ == Type::Float ? writeChunk(from, floats_)
+                                               : writeTexts(from);
+    if (!stored) return stored;
     written_ = behind;
     doubles_.clear();
     floats_.clear();
     texts_.clear();
     textBytes_ = 0;
+    return {};
+}
+
+template <class Number>
+Result<void> Hdf5Column::writeChunk(hsize_t from, std::vector<Number>& numbers) {
+    static_assert(std::endian::native == std::endian::little);  // as they stand in the file
+    numbers.resize(chunkRows_);                                 // the last chunk is stored whole too
+    const auto packed = chunk_->packed(std::as_bytes(std::span(numbers)), sizeof(Number));
+    if (!packed) return failure(packed);
+    if (H5Dwrite_chunk(set_, H5P_DEFAULT, 0, &from, packed->size(), packed->data()) < 0)
+        return because("write a data set");
+    return {};
+}
+
+Result<void> Hdf5Column::writeTexts(hsize_t from) {
+    const hsize_t count = texts_.size();
+    const auto where = owned(H5Dget_space(set_), H5Sclose);
+    const auto memory = owned(H5Screate_simple(1, &count, nullptr), H5Sclose);
+    std::vector<const char*> texts;
+    for (const auto& each : texts_) texts.push_back(each.c_str());
+    if (H5Sselect_hyperslab(where, H5S_SELECT_SET, &from, nullptr, &count, nullptr) < 0 ||
+        H5Dwrite(set_, textType(H5T_VARIABLE), memory, where, H5P_DEFAULT, texts.data()) < 0)
+        return because("write a data set");
     return {};
 }
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "core/base/Result.h"
+#include "core/exchange/hdf5/Hdf5Chunk.h"
 
 namespace tacto {
 
@@ -60,6 +61,8 @@ private:
     Hdf5Id id_;
 };
 
+class Hdf5File;
+
 /// One column that grows: values are collected and written a chunk at a time.
 class Hdf5Column {
 public:
@@ -67,7 +70,8 @@ public:
     enum class Type { Double, Float, Text };
 
     /// `rows`: how many there will be; kUnknownRows: it grows. The data set is made with the first chunk, or by end().
-    Hdf5Column(hid_t group, std::string name, Type type, std::uint64_t rows = kUnknownRows);
+    /// The file outlives the column.
+    Hdf5Column(Hdf5File& file, const Hdf5Object& group, std::string name, Type type, std::uint64_t rows = kUnknownRows);
     static constexpr std::uint64_t kUnknownRows = ~std::uint64_t{0};
 
     [[nodiscard]] Result<void> add(double value);
@@ -81,13 +85,18 @@ public:
 private:
     [[nodiscard]] Result<void> make(bool last);
     [[nodiscard]] Result<void> write(bool last);
+    template <class Number>
+    [[nodiscard]] Result<void> writeChunk(hsize_t from, std::vector<Number>& numbers);
+    [[nodiscard]] Result<void> writeTexts(hsize_t from);
     [[nodiscard]] std::size_t collected() const noexcept;
 
+    Hdf5Chunk* chunk_;
     hid_t group_;
     std::string name_;
     Type type_;
     std::uint64_t rows_;
     std::uint64_t written_ = 0;
+    hsize_t chunkRows_ = kChunkRows;
     Hdf5Id set_;
     std::vector<double> doubles_;
     std::vector<float> floats_;
@@ -106,11 +115,13 @@ public:
     [[nodiscard]] Result<void> close();
 
 private:
+    friend class Hdf5Column;
     Hdf5File(std::unique_lock<std::mutex> alone, Hdf5Id file, Hdf5Object root) noexcept
         : alone_(std::move(alone)), file_(std::move(file)), root_(std::move(root)) {}
     std::unique_lock<std::mutex> alone_;
     Hdf5Id file_;
     Hdf5Object root_;
+    std::unique_ptr<Hdf5Chunk> chunk_ = std::make_unique<Hdf5Chunk>();  // of all columns
 };
 
 /// Returns the name of a link: without "/" and "." alone, which lead elsewhere.
