@@ -404,8 +404,9 @@ void LiveWorkspace::replayAgain() {
 }
 
 void LiveWorkspace::chooseRecording() {
-    FileQuestion question{.title = tr("Open a recording (recording.json, EDF, BDF or XDF)"),
-                          .filters = {tr("Recordings (*.json *.edf *.bdf *.xdf)"), tr("All files (*)")}};
+    FileQuestion question{
+        .title = tr("Open a recording (recording.json, EDF, BDF or XDF)"),
+        .filters = {tr("Recordings (*.json *.edf *.bdf *.xdf *.xdfz *.xdf.gz)"), tr("All files (*)")}};
     askForFile(*this, question, [this](const QString& path) { openRecording(path); });
 }
 

@@ -239,8 +239,7 @@ void Workspaces::openFile(const QString& path) {
     noteAsked(path);
     if (!file.exists() && path.contains(QChar::ReplacementCharacter)) {
         emit complained(tr("The name of %1 is not UTF-8. Rename it first.").arg(path));
-    } else if (file.isDir() || file.suffix() == "json" ||
-               std::ranges::find(kSignalEndings, file.suffix().toLower().toStdString()) != std::end(kSignalEndings)) {
+    } else if (file.isDir() || file.suffix() == "json" || isSignalName(path.toStdString())) {
         if (live_->openRecording(path)) showLive(kTouch);
     } else if (file.suffix() == "tacto") {
         make(kSessions);

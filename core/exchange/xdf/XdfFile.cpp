@@ -13,6 +13,7 @@
 #include "core/base/LocaleFreeText.h"
 #include "core/base/Printable.h"
 #include "core/exchange/xdf/ClockLine.h"
+#include "core/exchange/xdf/Gunzip.h"
 #include "core/exchange/xdf/XdfNames.h"
 
 namespace tacto {
@@ -339,12 +340,24 @@ private:
 
 }  // namespace
 
+bool beginsAsXdf(std::string_view head) noexcept { return head.starts_with(kMagic) || gzipHolds(head, kMagic); }
+
 Result<SignalFile> readXdf(const std::filesystem::path& path) {
-    const auto content = readTextFile(path);
+    auto content = readTextFile(path);
     if (!content) return failure(content);
+    bool cut = false;
+    if (isGzip(*content)) {
+        auto unpacked = gunzip(*content, kMaxUnpacked);
+        if (!unpacked) return fail(unpacked.error().code, "{} {}", path.string(), unpacked.error().message);
+        *content = std::move(unpacked->content);
+        cut = unpacked->cut;
+    }
     if (!content->starts_with(kMagic))
         return fail(ErrorCode::ParseError, "{} does not begin with \"{}\", as an XDF file does", path.string(), kMagic);
-    return XdfReader(*content).read();
+    auto file = XdfReader(*content).read();
+    if (cut)
+        file.warnings.insert(file.warnings.begin(), "its gzip data are cut short: what they hold before that is read");
+    return file;
 }
 
 }  // namespace tacto

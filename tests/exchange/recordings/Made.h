@@ -8,10 +8,12 @@
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+#include <zlib.h>
 
 namespace tacto::test {
 
@@ -20,6 +22,21 @@ std::string littleEndianBytes(Number number) {
     std::string bytes(sizeof number, '\0');
     std::memcpy(bytes.data(), &number, sizeof number);
     return bytes;
+}
+
+/// Packs a text with gzip, as one member.
+inline std::string gzipped(std::string_view text) {
+    z_stream stream = {};
+    EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 15 + 16, 9, Z_DEFAULT_STRATEGY), Z_OK);
+    std::string packed(deflateBound(&stream, text.size()), '\0');
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(text.data()));
+    stream.avail_in = static_cast<uInt>(text.size());
+    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_out = static_cast<uInt>(packed.size());
+    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+    packed.resize(packed.size() - stream.avail_out);
+    deflateEnd(&stream);
+    return packed;
 }
 
 inline std::string xdfChunk(std::uint16_t tag, std::string_view content) {

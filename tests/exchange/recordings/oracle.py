@@ -1,5 +1,6 @@
 """oracle.py xdf|edf FOLDER SEED COUNT: writes COUNT random files and, beside each, what pyxdf, or pyEDFlib and edfio,
 read in it: FILE.json."""
+import gzip
 import json
 import logging
 import random
@@ -82,7 +83,11 @@ def write_xdf(path, r):
             out.append(chunk(5, bytes.fromhex("43A546DCCBF5410FB30ED5467383CBE4"), r))
         if r.random() < 0.1:
             out.append(chunk(r.randrange(7, 60000), r.randbytes(r.randrange(40)), r))
-    path.write_bytes(b"".join(out))
+    content = b"".join(out)
+    if path.suffix != ".xdf":  # in one member, or in two
+        cut = r.choice([0, r.randrange(len(content))])
+        content = gzip.compress(content[:cut], r.randrange(10)) * (cut > 0) + gzip.compress(content[cut:], r.randrange(10))
+    path.write_bytes(content)
 
 
 def read_xdf(path):
@@ -145,7 +150,7 @@ if __name__ == "__main__":
     for i in range(count):
         r = random.Random(1000 * seed + i)
         if which == "xdf":
-            file = folder / f"{i}.xdf"
+            file = folder / f"{i}{r.choice(['.xdf', '.xdfz', '.xdf.gz'])}"
             write_xdf(file, r)
             read = read_xdf(file)
         else:
