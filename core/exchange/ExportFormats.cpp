@@ -2,6 +2,7 @@
 #include <array>
 
 #include "core/exchange/Export.h"
+#include "core/exchange/bids/BidsExport.h"
 #include "core/exchange/csv/CsvExport.h"
 #include "core/exchange/edf/EdfExport.h"
 #include "core/exchange/hdf5/Hdf5Export.h"
@@ -10,8 +11,8 @@
 namespace tacto {
 
 std::span<const ExportFormat* const> exportFormats() {
-    static const std::array<const ExportFormat*, 5> formats{
-        &csvExport(), &hdf5Export(), &edfExport(), &bdfExport(), &xdfExport(),
+    static const std::array<const ExportFormat*, 6> formats{
+        &csvExport(), &hdf5Export(), &edfExport(), &bdfExport(), &xdfExport(), &bidsExport(),
     };
     return formats;
 }

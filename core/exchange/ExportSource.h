@@ -95,6 +95,9 @@ struct ExportTrain {
     double interval_s = kNaN;
     double impedance_ohm = kNaN;
     double imbalance = kNaN;
+    std::string drivenBy;      ///< "sensor", "manual", "presentation", "check"; empty if the session does not say
+    double held_v = kNaN;      ///< `command_v` adapted to the load's impedance
+    double roundedBy = kNaN;   ///< share by which the device's step made the amplitude smaller; negative: larger
     std::string reason;        ///< why it was not delivered
     nlohmann::json details{};  ///< the session's row of the report; null if there is none
     bool simulated = false;

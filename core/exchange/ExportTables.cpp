@@ -247,10 +247,14 @@ Result<void> TrainJoin::take(const SessionRow& command, const Visit& visit) {
         train.pressure = numberOr(body, "pressure");
         train.command_v = numberOr(body, "amplitude_v");
         train.interval_s = numberOr(body, "interval_s");
+        train.held_v = numberOr(body, "held_v");
+        train.roundedBy = numberOr(body, "rounded_by");
+        train.drivenBy = std::isnan(train.command_v) ? "presentation" : drive_;
         train.simulated = simulated_;
         plans_.push_back({std::move(train), command.seq});
         return {};
     }
+    if (command.name == "drive") drive_ = textOr(body, "text");
     if (!isOfTrains(command.name)) return {};
     ExportTrain train;
     const bool check = command.name == "impedance check" || numberOr(body, "is_check") == 1;
@@ -265,6 +269,7 @@ Result<void> TrainJoin::take(const SessionRow& command, const Visit& visit) {
     }
     train.time_s = toSeconds(command.at);
     train.simulated = simulated_;
+    if (check) train.drivenBy = "check";
     train.told_v = numberOr(body, "amplitude_v");
     train.told_ma = numberOr(body, "amplitude_ma");
     (std::isnan(train.told_ma) ? train.readBack_v : train.readBack_ma) = numberOr(body, "measured");

@@ -54,6 +54,7 @@ private:
     std::vector<const SessionRow*> refused_;
     std::size_t next_ = 0;
     bool simulated_;
+    std::string drive_;        ///< what drives since the last such command
     std::vector<Plan> plans_;  ///< sent or about to be, and not reported yet: at most a few
 };
 

@@ -89,11 +89,7 @@ std::string simulatedText(const BidsStudy& study) {
 }
 
 BidsFile description(const BidsStudy& study, std::string_view version) {
-    json about{{"Name", titleOf(study)},
-               {"BIDSVersion", "1.11.1"},
-               {"DatasetType", "raw"},
-               {"License", study.license.empty() ? "n/a" : study.license},
-               {"GeneratedBy", json::array({{{"Name", "Tactoscope"}, {"Version", version}}})}};
+    auto about = bidsDescription(titleOf(study), study.license, version);
     about["EthicsApprovals"] = approvalsOf(study);
     return {"dataset_description.json", textOf(about)};
 }
@@ -364,6 +360,14 @@ Result<BidsWith> bidsWithFrom(std::string_view list) {
         }
     }
     return with;
+}
+
+json bidsDescription(std::string_view name, std::string_view license, std::string_view version) {
+    return {{"Name", name},
+            {"BIDSVersion", "1.11.1"},
+            {"DatasetType", "raw"},
+            {"License", license.empty() ? "n/a" : license},
+            {"GeneratedBy", json::array({{{"Name", "Tactoscope"}, {"Version", version}}})}};
 }
 
 Result<std::string> bidsLabel(const BidsStudy& study, std::size_t enrolled) {

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,6 +46,9 @@ struct BidsFile {
     std::string path;  ///< within the dataset, "sub-02/sub-02_sessions.tsv"
     std::string text;
 };
+
+/// Returns what dataset_description.json says of every dataset of this program. `license` may be empty.
+[[nodiscard]] nlohmann::json bidsDescription(std::string_view name, std::string_view license, std::string_view version);
 
 /// Returns the label of the `enrolled`-th participant (from 1), "03". Errors: InvalidArgument if that or places is 0.
 [[nodiscard]] Result<std::string> bidsLabel(const BidsStudy& study, std::size_t enrolled);

@@ -1,15 +1,19 @@
 // export SESSION: its JSON, its exit codes, and that it agrees with the session that it came from.
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "core/base/Csv.h"
 #include "core/exchange/Export.h"
 #include "tests/cli/Shape.h"
+#include "tests/support/PythonEnvironment.h"
+#include "tests/support/Support.h"
 
 namespace tacto::test {
 namespace {
@@ -114,6 +118,29 @@ TEST_F(SessionExport, GivesTheSessionsRoughness) {
         }
     }
     EXPECT_GT(rows, 100U);
+}
+
+TEST_F(SessionExport, FromBidsAloneEveryTrainIsComputedAgain) {
+    RecordProperty("hazard", "H9");
+    const auto script = (sourceDir() / "tests/exchange/recompute_trains.py").string();
+    const auto computed = [&](const std::string& session, const std::string& out) {
+        const auto ran = desk_.run({"export", session, "--format", "bids", "--out", at(out)});
+        EXPECT_EQ(ran.code, 0) << ran.err;
+        const auto again = outputOfShell("python3 '" + script + "' '" + at(out) + "'");
+        EXPECT_EQ(again.code, 0) << again.text;
+        std::array<int, 3> counts{};  // trains, those that the fingertip drove, trials compared
+        std::istringstream(again.text) >> counts[0] >> counts[1] >> counts[2];
+        return counts;
+    };
+    const auto live = computed(session_, "live");
+    EXPECT_GT(live[0], 2);
+    EXPECT_EQ(live[1], live[0]) << "each was driven by the fingertip";
+    const auto ran = desk_.run({"run", "separability", "--device", "sim:", "--set", "repeats=3", "--out", at("trials"),
+                                "--report", "none", "--json"});
+    ASSERT_EQ(ran.code, 5) << ran.err;  // too few trials for a verdict
+    const auto measured = computed(jsonOf(ran).at("session").get<std::string>(), "measured");
+    EXPECT_GE(measured[0], 24);
+    EXPECT_EQ(measured[2], 12) << "each trial's means are those of its trains";
 }
 
 TEST_F(SessionExport, CtrlCLeavesNothing) {

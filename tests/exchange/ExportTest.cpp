@@ -35,9 +35,10 @@ Result<ExportReport> exported(const fs::path& session, std::string_view format, 
     return exportSession(session, *exportFormat(format), out, "0.0.0-test", watch);
 }
 
-std::string runPython(const std::string& python, const char* script, const fs::path& out, const fs::path& expected) {
-    const auto ran = outputOfShell("'" + python + "' '" + (sourceDir() / "tests/exchange" / script).string() + "' '" +
-                                   out.string() + "' '" + expected.string() + "'");
+std::string runPython(const std::string& python, const char* script, const std::vector<fs::path>& arguments) {
+    auto command = "'" + python + "' '" + (sourceDir() / "tests/exchange" / script).string() + "'";
+    for (const auto& argument : arguments) command += " '" + argument.string() + "'";
+    const auto ran = outputOfShell(command);
     return ran.code == 0 ? "" : ran.text.empty() ? "ended by a signal" : ran.text;
 }
 
@@ -61,7 +62,7 @@ TEST(CsvExport, HoldsWhatPythonReads) {
         const auto done = exported(drawn.path, "csv", folder.path() / "out");
         ASSERT_TRUE(done) << done.error().message;
         EXPECT_THAT(done->leftOut, testing::IsEmpty());
-        ASSERT_EQ(runPython("python3", "read_csv.py", folder.path() / "out", folder.path()), "") << "seed " << seed;
+        ASSERT_EQ(runPython("python3", "read_csv.py", {folder.path() / "out", folder.path()}), "") << "seed " << seed;
     }
 }
 
@@ -74,8 +75,31 @@ TEST(Hdf5Export, HoldsWhatH5pyAndXarrayRead) {
         const auto drawn = drawSession(folder.path(), seed);
         const auto done = exported(drawn.path, "hdf5", folder.path() / "out.h5");
         ASSERT_TRUE(done) << done.error().message;
-        ASSERT_EQ(runPython(*python, "read_hdf5.py", folder.path() / "out.h5", folder.path()), "") << "seed " << seed;
+        ASSERT_EQ(runPython(*python, "read_hdf5.py", {folder.path() / "out.h5", folder.path()}), "") << "seed " << seed;
     }
+}
+
+TEST(BidsExport, HoldsWhatPandasReadsAndTheValidatorAccepts) {
+    RecordProperty("hazard", "H9");
+    const auto python = pythonWith("bids", "pandas, h5py, bids_validator_deno", "pandas h5py bids-validator-deno");
+    if (!python) GTEST_SKIP() << kNoPackages;
+    const auto validator = fs::path(*python).parent_path() / "bids-validator-deno";
+    std::set<std::string> held, left;
+    for (std::uint64_t seed = 1; seed <= trials<std::uint64_t>({.local = 4, .ci = 8, .campaign = 100}); ++seed) {
+        const ScratchDir folder;
+        const auto drawn = drawSession(folder.path(), seed);
+        const auto done = exported(drawn.path, "bids", folder.path() / "out");
+        ASSERT_TRUE(done) << done.error().message;
+        ASSERT_TRUE(exported(drawn.path, "hdf5", folder.path() / "out.h5"));
+        std::ofstream(folder.path() / "report.json") << toJson(*done).dump();
+        for (const auto& stream : done->streams) held.insert(stream.name);
+        for (const auto& each : done->leftOut) left.insert(each.what);
+        std::vector<fs::path> arguments{folder.path() / "out", folder.path(), folder.path() / "out.h5"};
+        if (seed == 1) arguments.push_back(validator);
+        ASSERT_EQ(runPython(*python, "read_bids.py", arguments), "") << "seed " << seed;
+    }
+    EXPECT_EQ(held.size(), 6U) << "each stream was there once";
+    EXPECT_GT(left.size(), 2U) << "a stream without a grid was left out once";
 }
 
 TEST(CsvExport, OpensAsARecordingWithTheSamplesOfTheSession) {

@@ -13,6 +13,7 @@
 #include "core/base/Printable.h"
 #include "core/base/WholeFile.h"
 #include "core/exchange/ExportMoments.h"
+#include "core/exchange/SlotFinder.h"
 #include "core/exchange/edf/EdfGrid.h"
 #include "core/exchange/edf/EdfNames.h"
 

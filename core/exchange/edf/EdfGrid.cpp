@@ -56,31 +56,6 @@ double recordDuration_s(std::span<const double> rates_hz, double maxRecord) {
     return best_s;
 }
 
-std::optional<SlotFinder::Place> SlotFinder::next(double t_s) {
-    const double at = t_s * slotRate_hz_ + 0.5;
-    if (!(at >= 0 && at < 9e15) || (last_ && at < static_cast<double>(*last_))) {
-        ++counts_.dropped;
-        return std::nullopt;
-    }
-    const auto slot = static_cast<std::uint64_t>(at);
-    const bool slipped = last_ && slot == *last_ + 2 && t_s - last_s_ < 1.5 / usualRate_hz_;
-    if (last_ && slot == *last_)
-        ++counts_.dropped;  // the sample before
-    else
-        counts_ = counts();
-    if (slipped) ++counts_.repeated;
-    lastError_s_ = std::abs(t_s - static_cast<double>(slot) / slotRate_hz_);
-    last_ = slot;
-    last_s_ = t_s;
-    return Place{slot, slipped};
-}
-
-GridCounts SlotFinder::counts() const {
-    auto counts = counts_;
-    counts.maxTimeError_s = std::max(counts.maxTimeError_s, lastError_s_);
-    return counts;
-}
-
 double Scale::step() const noexcept {
     return (high - low) / (static_cast<double>(digitalMax) - static_cast<double>(digitalMin));
 }

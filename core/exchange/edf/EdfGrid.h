@@ -1,9 +1,8 @@
-// EdfGrid.h - the common grid of an EDF file: how long a record is, and in which of its slots a sample lies.
+// EdfGrid.h - the common grid of an EDF file: how long a record is, and how a value stands in it.
 //
-// Thread-safety: pure functions; a SlotFinder has one owner.
+// Thread-safety: pure functions.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -17,34 +16,6 @@ inline constexpr double kMinRecord_s = 0.01;
 /// the multiple of kMinRecord_s up to 60 s with the least relative error. Rates are finite and above 0; `maxRecord` is
 /// the most samples in a record, and limits what is chosen in place of the first six.
 [[nodiscard]] double recordDuration_s(std::span<const double> rates_hz, double maxRecord);
-
-/// What the samples of a stream become on the grid.
-struct GridCounts {
-    std::uint64_t repeated = 0;  ///< slots filled by the sample before, where the clock slipped by one
-    std::uint64_t dropped = 0;   ///< samples whose slot a later one has, or that lie before the first slot or the last
-    double maxTimeError_s = 0;   ///< from a stamp to its slot
-};
-
-/// Finds the slot of each sample of a stream, in order.
-class SlotFinder {
-public:
-    /// Slot k is at k / slotRate_hz; `usualRate_hz` tells a gap from a slip.
-    SlotFinder(double slotRate_hz, double usualRate_hz) : slotRate_hz_(slotRate_hz), usualRate_hz_(usualRate_hz) {}
-
-    struct Place {
-        std::uint64_t slot;
-        bool slipped;  ///< the slot before it has no sample, without a gap: the sample before stands there too
-    };
-    /// Returns nothing for a sample that is dropped.
-    [[nodiscard]] std::optional<Place> next(double t_s);
-    [[nodiscard]] GridCounts counts() const;
-
-private:
-    double slotRate_hz_, usualRate_hz_;
-    std::optional<std::uint64_t> last_;
-    double last_s_ = 0, lastError_s_ = 0;  // of the last sample, which the next may replace
-    GridCounts counts_;
-};
 
 /// How the values of a signal stand in the file.
 struct Scale {

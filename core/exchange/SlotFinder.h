@@ -1,0 +1,40 @@
+// SlotFinder.h - the places of a stream's samples on a regular grid, for formats that hold no stamps: the slot nearest
+// to each stamp.
+//
+// Thread-safety: one owner.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace tacto {
+
+/// What the samples of a stream become on the grid.
+struct GridCounts {
+    std::uint64_t repeated = 0;  ///< slots filled by the sample before, where the clock slipped by one
+    std::uint64_t dropped = 0;   ///< samples whose slot a later one has, or that lie before the first slot or the last
+    double maxTimeError_s = 0;   ///< from a stamp to its slot
+};
+
+/// Finds the slot of each sample of a stream, in order.
+class SlotFinder {
+public:
+    /// Slot k is at k / slotRate_hz; `usualRate_hz` tells a gap from a slip.
+    SlotFinder(double slotRate_hz, double usualRate_hz) : slotRate_hz_(slotRate_hz), usualRate_hz_(usualRate_hz) {}
+
+    struct Place {
+        std::uint64_t slot;
+        bool slipped;  ///< the slot before it has no sample, without a gap: the sample before stands there too
+    };
+    /// Returns nothing for a sample that is dropped.
+    [[nodiscard]] std::optional<Place> next(double t_s);
+    [[nodiscard]] GridCounts counts() const;
+
+private:
+    double slotRate_hz_, usualRate_hz_;
+    std::optional<std::uint64_t> last_;
+    double last_s_ = 0, lastError_s_ = 0;  // of the last sample, which the next may replace
+    GridCounts counts_;
+};
+
+}  // namespace tacto
