@@ -125,9 +125,8 @@ void Menus::addLooks(QMenu& view) {
         return action;
     };
     for (const auto& [text, theme] : {std::pair(tr("&Light"), Theme::Light), {tr("&Dark"), Theme::Dark}}) {
-        auto* action = add(view, *themes, text, false, [this, theme = theme] { window_.setTheme(theme); });
-        connect(&view, &QMenu::aboutToShow, action,
-                [action, theme = theme] { action->setChecked(currentTheme() == theme); });
+        auto* action = add(view, *themes, text, false, [this, theme] { window_.setTheme(theme); });
+        connect(&view, &QMenu::aboutToShow, action, [action, theme] { action->setChecked(currentTheme() == theme); });
     }
     view.addMenu(size);
     const int now = QSettings().value("textSize", MainWindow::kUsualText).toInt();
