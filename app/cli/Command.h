@@ -65,7 +65,7 @@ void printJson(const nlohmann::json& value);
 
 // Each is defined in app/cli/<Name>Command.cpp.
 extern const Command kDevices, kProtocols, kRun, kRoughness, kEncode, kMeasure, kConvert, kAnalyze, kVerify, kCompare,
-    kHid, kScienceMode, kSensor, kCertificate, kStudy, kExport;
+    kHid, kScienceMode, kSensor, kCertificate, kStudy, kExport, kFirmwareProfile;
 // The usage text of the program tactoscope-report, for the help of tactoscope-cli.
 extern const Command kReport;
 inline constexpr const char* kReportArguments =

@@ -25,9 +25,9 @@ constexpr const char* kLicence = "GPL-3.0-or-later";
 const std::vector<Command>& commands() {
     // A separate program makes reports (ReportProgram.h).
     static const Command report{"report", kReportArguments, kReportSummary, nullptr, nullptr};
-    static const std::vector<Command> all{kRun,         kProtocols, kDevices,     kRoughness, kEncode,  kMeasure,
-                                          kConvert,     kAnalyze,   report,       kVerify,    kCompare, kHid,
-                                          kScienceMode, kSensor,    kCertificate, kStudy,     kExport};
+    static const std::vector<Command> all{
+        kRun,    kProtocols, kDevices, kRoughness,   kEncode, kMeasure,     kConvert, kAnalyze, report,
+        kVerify, kCompare,   kHid,     kScienceMode, kSensor, kCertificate, kStudy,   kExport,  kFirmwareProfile};
     return all;
 }
 

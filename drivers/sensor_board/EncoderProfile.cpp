@@ -1,6 +1,11 @@
 #include "drivers/sensor_board/EncoderProfile.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <fmt/format.h>
+#include <iterator>
 #include <memory>
 
 #include "core/dsp/SampleHistory.h"
@@ -227,6 +232,119 @@ Result<te_profile> encoderProfile(std::span<const StreamInfo> streams, const Rou
     if (const auto refusal = te_init(state.get(), &profile); refusal != TE_ACCEPTED)
         return fail(ErrorCode::Unsupported, "the board's encoder refuses {}", wordsOf(refusal));
     return profile;
+}
+
+namespace {
+
+struct WordOfProfile {
+    const char* name;
+    bool whole;  ///< a whole number; else a float
+};
+
+/// The words of te_profile before its taxels, in order.
+constexpr WordOfProfile kWords[] = {{"layout", true},
+                                    {"hash", true},
+                                    {"acceleration_hz", false},
+                                    {"axes", true},
+                                    {"acceleration_most", false},
+                                    {"force_hz", false},
+                                    {"force_scale", false},
+                                    {"force_offset", false},
+                                    {"force_most", false},
+                                    {"force_newton", true},
+                                    {"taxels_hz", false},
+                                    {"taxels", true},
+                                    {"taxels_most", false},
+                                    {"taxels_pascal", true},
+                                    {"spectral_absolute", true},
+                                    {"taxel_dynamic", true},
+                                    {"band_low_hz", false},
+                                    {"spectral_weight", false},
+                                    {"taxel_weight", false},
+                                    {"spectral_smooth", false},
+                                    {"spectral_rough", false},
+                                    {"taxel_smooth", false},
+                                    {"taxel_rough", false},
+                                    {"smoothing_s", false},
+                                    {"rest_mean_square", false},
+                                    {"contact_area_cm2", false},
+                                    {"pressure_min_pa", false},
+                                    {"pressure_max_pa", false},
+                                    {"amplitude_min_v", false},
+                                    {"amplitude_max_v", false},
+                                    {"interval_min_s", false},
+                                    {"interval_max_s", false},
+                                    {"amplitude_curve", true},
+                                    {"interval_curve", true},
+                                    {"amplitude_beta", false},
+                                    {"interval_beta", false},
+                                    {"swapped", true},
+                                    {"amplitude_ratio", false},
+                                    {"interval_ratio", false},
+                                    {"amplitude_slew_v_s", false},
+                                    {"shape", true},
+                                    {"negative", true},
+                                    {"width_us", false},
+                                    {"gap_us", false},
+                                    {"recharge_ratio", false},
+                                    {"pulses", true},
+                                    {"pulse_hz", false},
+                                    {"current_source", true},
+                                    {"load_low_ohm", false},
+                                    {"load_ohm", false},
+                                    {"load_high_ohm", false},
+                                    {"output_step", false},
+                                    {"output_max", false},
+                                    {"amplitude_error", false},
+                                    {"width_error", false},
+                                    {"interval_error", false},
+                                    {"rate_error", false},
+                                    {"ceiling_peak_ma", false},
+                                    {"ceiling_charge_uc", false},
+                                    {"ceiling_rms_ma", false}};
+static_assert(sizeof(std::uint32_t) * std::size(kWords) == offsetof(te_profile, taxel_scale));
+static_assert(std::endian::native == std::endian::little);
+
+std::string listOf(const float* values, std::uint32_t count) {
+    std::string list = "{";
+    for (std::uint32_t i = 0; i < count; ++i) list += fmt::format("{}{:.9e}F", i == 0 ? "" : ", ", values[i]);
+    return list + "}";
+}
+
+}  // namespace
+
+std::string profileBytes(const te_profile& profile) {
+    const auto part = [](const void* from, std::size_t size) {
+        return std::string(static_cast<const char*>(from), size);
+    };
+    const std::size_t taxels = profile.taxels * sizeof(float);
+    return part(&profile, offsetof(te_profile, taxel_scale)) + part(profile.taxel_scale, taxels) +
+           part(profile.taxel_offset, taxels);
+}
+
+std::string profileHeader(const te_profile& profile, std::string_view name) {
+    std::string shown(name);
+    std::ranges::replace_if(
+        shown, [](unsigned char c) { return c < ' ' || c > '~' || c == '*' || c == '/'; }, '_');
+    std::string text = fmt::format(
+        "/* Written by tactoscope-cli firmware-profile. The profile \"{}\" for the tactile encoder: te_init(&state, "
+        "&tactile_profile). */\n#include \"tactile_encoder.h\"\n\nstatic const struct te_profile tactile_profile = "
+        "{{\n",
+        shown);
+    const auto bytes = profileBytes(profile);
+    for (std::size_t i = 0; i < std::size(kWords); ++i) {
+        float number = 0;
+        std::uint32_t whole = 0;
+        std::memcpy(&number, bytes.data() + 4 * i, 4);
+        std::memcpy(&whole, bytes.data() + 4 * i, 4);
+        text += kWords[i].whole ? fmt::format("    .{} = {}U,\n", kWords[i].name, whole)
+                                : fmt::format("    .{} = {:.9e}F,\n", kWords[i].name, number);
+    }
+    if (profile.taxels > 0) {
+        text += fmt::format("    .taxel_scale = {},\n    .taxel_offset = {},\n",
+                            listOf(profile.taxel_scale, profile.taxels), listOf(profile.taxel_offset, profile.taxels));
+    }
+    return text + "};\n";
 }
 
 }  // namespace tacto

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "core/dsp/RoughnessSettings.h"
@@ -28,6 +29,11 @@ struct EncoderOutput {
 [[nodiscard]] Result<te_profile> encoderProfile(std::span<const StreamInfo> streams, const RoughnessSettings& roughness,
                                                 const EncodingProfile& encoding, const EncoderOutput& output,
                                                 std::string_view serial = {});
+
+/// The profile for a board: the bytes that te_read_profile() reads, and a C header that defines `tactile_profile`.
+/// `name`: of the laboratory's profile, for the header's comment.
+[[nodiscard]] std::string profileBytes(const te_profile& profile);
+[[nodiscard]] std::string profileHeader(const te_profile& profile, std::string_view name);
 
 /// Returns why the encoder refuses, in words; empty for TE_ACCEPTED.
 [[nodiscard]] std::string_view wordsOf(te_refusal refusal) noexcept;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <functional>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <iostream>
 #include <limits>
@@ -13,6 +15,7 @@
 #include <random>
 #include <zlib.h>
 
+#include "core/base/Csv.h"
 #include "core/base/Statistics.h"
 #include "core/safety/SafetyGate.h"
 #include "drivers/sensor_board/EncoderProfile.h"
@@ -20,6 +23,7 @@
 #include "tests/safety/Dice.h"
 #include "tests/safety/IndependentBody.h"
 #include "tests/support/Limits.h"
+#include "tests/support/Support.h"
 #include "tests/support/Trials.h"
 
 namespace tacto::test {
@@ -376,6 +380,80 @@ TEST(EncoderGate, AnotherContentHasAnotherHash) {
     std::array<float, 4> taxels{rig.profile.taxel_scale[0], rig.profile.taxel_scale[1], rig.profile.taxel_offset[0],
                                 rig.profile.taxel_offset[1]};
     EXPECT_EQ(rig.profile.hash, crc32(crc, reinterpret_cast<const Bytef*>(taxels.data()), sizeof taxels));
+}
+
+TEST(EncoderProfile, TravelsAsBytes) {
+    Dice dice(5);
+    const Rig rig(dice);
+    const auto bytes = profileBytes(rig.profile);
+    const auto* const from = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    const auto size = static_cast<std::uint32_t>(bytes.size());
+    te_profile read{};
+    EXPECT_EQ(te_read_profile(&read, from, size), TE_ACCEPTED);
+    EXPECT_EQ(std::memcmp(&read, &rig.profile, sizeof read), 0);
+    for (std::uint32_t shorter = 0; shorter < size; ++shorter)
+        EXPECT_EQ(te_read_profile(&read, from, shorter), TE_BAD_LAYOUT);
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        auto changed = bytes;
+        changed[i] = static_cast<char>(changed[i] ^ 1);
+        EXPECT_NE(te_read_profile(&read, reinterpret_cast<const std::uint8_t*>(changed.data()), size), TE_ACCEPTED)
+            << i;
+    }
+}
+
+TEST(EncoderProfile, TravelsAsAHeader) {
+    Dice dice(6);
+    const Rig rig(dice);
+    const ScratchDir scratch;
+    scratch.write("profile.h", profileHeader(rig.profile, "our */ profile"));
+    scratch.write("main.c",
+                  "#include <stdio.h>\n#include \"profile.h\"\nint main(void) {\n"
+                  "    return fwrite(&tactile_profile, sizeof tactile_profile, 1, stdout) == 1 ? 0 : 1;\n}\n");
+    const auto folder = scratch.path().string();
+    const auto command =
+        fmt::format("cd '{}' && " TACTO_C_COMPILER
+                    " -std=c99 -Wall -Wextra -Wpedantic -Wno-missing-field-initializers -Werror "
+                    "-DTE_TAXELS=32U -I'{}/resources/firmware/tactile_encoder' main.c -o main && ./main > made",
+                    folder, sourceDir().string());
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    const auto made = readTextFile(scratch.path() / "made", 10'000);
+    ASSERT_TRUE(made) << made.error().message;
+    ASSERT_EQ(made->size(), sizeof(te_profile));
+    EXPECT_EQ(std::memcmp(made->data(), &rig.profile, sizeof(te_profile)), 0);
+}
+
+TEST(EncoderProfile, RefusesByNameWhatTheBoardCannotDo) {
+    using testing::HasSubstr;
+    RecordProperty("hazard", "H1");
+    EncoderOutput output;
+    output.source.amplitudeMax = 60;
+    output.load = LoadRange::declared(Load::resistor(Ohms(1000)));
+    EncodingProfile encoding;
+    const auto refusal = [&](std::span<const StreamInfo> streams = kStreams) {
+        const auto made = encoderProfile(streams, {}, encoding, output);
+        return made ? std::string() : made.error().message;
+    };
+    EXPECT_EQ(refusal(), "");
+    encoding.amplitudeMax = Volts(41);
+    EXPECT_THAT(refusal(), HasSubstr("40 V"));
+    encoding = {};
+    encoding.hold = Hold::Charge;
+    EXPECT_THAT(refusal(), HasSubstr("charge"));
+    encoding = {};
+    output.ceilings = {{Quantity::PulseEnergy, 1}};
+    EXPECT_THAT(refusal(), HasSubstr("energy"));
+    output.ceilings = {{Quantity::CommandVoltage, 30}};
+    EXPECT_THAT(refusal(), HasSubstr("30 V"));
+    output.ceilings.clear();
+    output.load = LoadRange::declared(Load::skin(Ohms(200), Ohms(10'000), Nanofarads(50)));
+    EXPECT_THAT(refusal(), HasSubstr("a resistance"));
+    output.load = LoadRange::declared(Load::resistor(Ohms(1000)));
+    output.source.accuracy.amplitude = Spread{0.01, 0.5};
+    EXPECT_THAT(refusal(), HasSubstr("amplitude may be off by 0.5"));
+    output.source.accuracy = {};
+    auto fast = kStreams;
+    fast[0].rate_hz = 8000;
+    EXPECT_THAT(refusal(fast), HasSubstr("4007 Hz"));
 }
 
 TEST(EncoderGate, AStopLasts) {

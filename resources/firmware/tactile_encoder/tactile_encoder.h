@@ -179,6 +179,9 @@ enum te_refusal {
  * the same where memory for more taxels is set aside. */
 uint32_t te_hash(const struct te_profile* profile);
 
+/* Reads what `firmware-profile --out FILE.bin` wrote: the words of struct te_profile, of the taxels those in use. */
+enum te_refusal te_read_profile(struct te_profile* profile, const uint8_t* bytes, uint32_t size);
+
 /* Begins, with everything forgotten. After anything but TE_ACCEPTED the state makes no train. */
 enum te_refusal te_init(struct te_state* state, const struct te_profile* profile);
 

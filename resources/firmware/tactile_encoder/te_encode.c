@@ -27,15 +27,33 @@ uint32_t te_hash(const struct te_profile* profile) {
     return crc ^ 0xFFFFFFFFU;
 }
 
-static void clear(struct te_state* state) {
-    uint8_t* const bytes = (uint8_t*)state;
-    uint32_t i;
-    for (i = 0; i < sizeof *state; ++i) bytes[i] = 0U;
+static void clear(void* to, size_t size) {
+    size_t i;
+    for (i = 0; i < size; ++i) ((uint8_t*)to)[i] = 0U;
+}
+
+static void copy(void* to, const uint8_t* from, size_t size) {
+    size_t i;
+    for (i = 0; i < size; ++i) ((uint8_t*)to)[i] = from[i];
+}
+
+enum te_refusal te_read_profile(struct te_profile* profile, const uint8_t* bytes, uint32_t size) {
+    const size_t head = offsetof(struct te_profile, taxel_scale);
+    size_t taxels;
+    clear(profile, sizeof *profile);
+    if (size < head) return TE_BAD_LAYOUT;
+    copy(profile, bytes, head);
+    if (profile->layout != TE_LAYOUT || profile->taxels > TE_TAXELS) return TE_BAD_LAYOUT;
+    taxels = profile->taxels * sizeof(float);
+    if (size != head + 2U * taxels) return TE_BAD_LAYOUT;
+    copy(profile->taxel_scale, bytes + head, taxels);
+    copy(profile->taxel_offset, bytes + head + taxels, taxels);
+    return profile->hash == te_hash(profile) ? TE_ACCEPTED : TE_BAD_HASH;
 }
 
 enum te_refusal te_init(struct te_state* state, const struct te_profile* profile) {
     enum te_refusal refusal;
-    clear(state);
+    clear(state, sizeof *state);
     state->profile = *profile;
     refusal = te_profile_judge(&state->profile);
     if (refusal != TE_ACCEPTED) return refusal;

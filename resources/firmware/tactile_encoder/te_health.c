@@ -59,13 +59,14 @@ static void watch_sample(struct te_repeat* repeat, uint32_t sample, int64_t befo
 
 void te_health_sample(struct te_state* state, enum te_stream stream, int64_t t_ns, const float* raw, uint32_t columns) {
     struct te_health* const health = &state->health[stream];
+    const int64_t before_ns = health->newest_ns == TE_ALWAYS ? t_ns : health->newest_ns;
     uint32_t mixed = 2166136261U;
     uint32_t i;
     for (i = 0; i < columns; ++i) {
         mixed = (mixed ^ te_bits(raw[i])) * 16777619U;
-        if (stream == TE_ACCELERATION) watch_value(&state->axis[i], te_bits(raw[i]), health->newest_ns);
+        if (stream == TE_ACCELERATION) watch_value(&state->axis[i], te_bits(raw[i]), before_ns);
     }
-    watch_sample(&health->repeat, mixed, health->newest_ns);
+    watch_sample(&health->repeat, mixed, before_ns);
     if (t_ns > health->newest_ns) health->newest_ns = t_ns;
 }
 
