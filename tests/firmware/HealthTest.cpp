@@ -1,0 +1,157 @@
+// The board's encoder is silent while a sensor is late, ahead, stuck or out of all proportion, and says which (H7).
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <memory>
+
+#include "core/base/Random.h"
+#include "tests/firmware/BoardAndHost.h"
+
+namespace tacto::test {
+namespace {
+
+constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::uint32_t kNone = 0;
+
+/// A finger that rests for half a second and then slides, on a board that is asked every 10 ms.
+class SlidingFinger : public testing::Test {
+protected:
+    SlidingFinger() {
+        RecordProperty("hazard", "H7");
+        const std::vector<StreamInfo> streams{
+            {StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, 2, 1000, "acceleration"},
+            {StreamKind::Force, StreamUnit::Newton, 1, 100, "force"},
+            {StreamKind::Taxels, StreamUnit::Pascal, 4, 100, "taxels"}};
+        const auto profile = encoderProfile(streams, {}, {}, idealOutput());
+        EXPECT_TRUE(profile) << profile.error().message;
+        EXPECT_EQ(te_init(state_.get(), &*profile), TE_ACCEPTED);
+    }
+
+    /// Goes on for `ms`; returns the trains. `spoil` changes what the sensors give.
+    template <class Spoil>
+    int slide(int ms, Spoil spoil) {
+        int trains = 0;
+        for (int k = 0; k < ms / 10; ++k) {
+            now_ns_ += 10 * kMillisecond_ns;
+            const bool touches = now_ns_ > 500 * kMillisecond_ns;
+            std::vector<float> acceleration, force{touches ? 1.0F : 0.0F}, taxels;
+            for (int i = 0; i < 20; ++i) acceleration.push_back(noise(touches ? 1 : 0.02));
+            for (int i = 0; i < 4; ++i) taxels.push_back(500 + noise(5) + (touches ? 3000.0F + 300.0F * float(i) : 0));
+            force[0] += noise(0.002);
+            spoil(acceleration, force, taxels);
+            give(TE_ACCELERATION, acceleration, 2, kMillisecond_ns);
+            give(TE_FORCE, force, 1, 10 * kMillisecond_ns);
+            give(TE_TAXEL_ARRAY, taxels, 4, 10 * kMillisecond_ns);
+            te_reading frame{};
+            while (te_frame(state_.get(), &frame) != 0) {
+            }
+            te_train train{};
+            trains += te_next_train(state_.get(), now_ns_, &train);
+        }
+        return trains;
+    }
+    int slide(int ms) {
+        return slide(ms, [](auto&, auto&, auto&) {});
+    }
+    [[nodiscard]] std::uint32_t fault(std::int64_t later_ns = 0) const {
+        return te_fault(state_.get(), now_ns_ + later_ns);
+    }
+
+    std::unique_ptr<te_state> state_ = std::make_unique<te_state>();
+    std::int64_t now_ns_ = 0;
+
+private:
+    float noise(double size) { return static_cast<float>(size * random_.normal()); }
+    void give(te_stream stream, const std::vector<float>& values, std::size_t columns, std::int64_t step_ns) {
+        if (values.empty()) return;
+        const auto count = static_cast<std::uint32_t>(values.size() / columns);
+        te_samples(state_.get(), stream, now_ns_ - (count - 1) * step_ns, static_cast<std::int32_t>(step_ns),
+                   values.data(), count);
+    }
+    Random random_{7, "finger"};
+};
+
+}  // namespace
+
+TEST_F(SlidingFinger, IsFelt) {
+    EXPECT_NE(fault() & TE_FAULT_STALE, kNone) << "nothing came yet";
+    EXPECT_GE(slide(5000), 3);
+    EXPECT_EQ(fault(), kNone);
+}
+
+TEST_F(SlidingFinger, IsNotFeltWhileAStreamIsSilent) {
+    slide(3000);
+    EXPECT_EQ(slide(100, [](auto&, auto& force, auto&) { force.clear(); }), 0);
+    EXPECT_EQ(slide(4000, [](auto&, auto& force, auto&) { force.clear(); }), 0);
+    EXPECT_EQ(fault(), TE_FAULT_STALE);
+    EXPECT_GE(slide(3000), 1) << "and is again when it speaks";
+    EXPECT_EQ(slide(3000, [](auto&, auto&, auto& taxels) { taxels.clear(); }), 0);
+    slide(1000);
+    EXPECT_EQ(fault(99 * kMillisecond_ns), kNone);
+    EXPECT_EQ(fault(101 * kMillisecond_ns), TE_FAULT_STALE);
+    EXPECT_EQ(fault(-200 * kMillisecond_ns), TE_FAULT_FUTURE);
+    EXPECT_EQ(te_fault(state_.get(), -1), TE_FAULT_FUTURE);
+}
+
+TEST_F(SlidingFinger, IsNotFeltWhileASensorRepeatsItself) {
+    slide(3000);
+    std::vector<std::vector<float>> kept;
+    // A buffer of 50 samples that is sent again and again, as by a transfer that hangs.
+    slide(50, [&](auto& acceleration, auto&, auto&) { kept.push_back(acceleration); });
+    std::size_t next = 0;
+    const auto again = [&](auto& acceleration, auto&, auto&) { acceleration = kept[next++ % kept.size()]; };
+    slide(300, again);
+    EXPECT_EQ(fault(), TE_FAULT_STUCK);
+    EXPECT_EQ(slide(3000, again), 0);
+    slide(1000);
+    EXPECT_EQ(fault(), kNone);
+    // One axis alone.
+    slide(300, [](auto& acceleration, auto&, auto&) {
+        for (std::size_t i = 1; i < acceleration.size(); i += 2) acceleration[i] = 9.8F;
+    });
+    EXPECT_EQ(fault(), TE_FAULT_STUCK);
+    slide(1000);
+    EXPECT_EQ(fault(), kNone);
+    // Taxels, which are touched; force alone may stand still.
+    slide(1000, [](auto&, auto&, auto& taxels) { taxels = {3500, 3800, 4100, 4400}; });
+    EXPECT_EQ(fault(), TE_FAULT_STUCK);
+    slide(1000, [](auto&, auto& force, auto&) { force = {1}; });
+    EXPECT_EQ(fault(), kNone);
+}
+
+TEST_F(SlidingFinger, IsNotFeltForATenthOfASecondAfterAnImpossibleReading) {
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 201.0F}) {
+        slide(3000);
+        slide(10, [&](auto&, auto& force, auto&) { force = {bad}; });
+        EXPECT_EQ(fault(), TE_FAULT_IMPLAUSIBLE) << bad;
+        slide(90);
+        EXPECT_EQ(fault(), TE_FAULT_IMPLAUSIBLE) << bad;
+        slide(20);
+        EXPECT_EQ(fault(), kNone) << bad;
+    }
+}
+
+TEST_F(SlidingFinger, IsNotFeltAfterAStop) {
+    RecordProperty("hazard", "H2");
+    slide(3000);
+    te_stop(state_.get());
+    EXPECT_EQ(slide(5000), 0);
+    EXPECT_EQ(fault(), TE_FAULT_STOPPED);
+}
+
+TEST_F(SlidingFinger, LosesWhatNobodyTakes) {
+    slide(2000);
+    const auto before = state_->windows_lost;
+    std::vector<float> acceleration(20, 1.0F);
+    for (int i = 0; i < 200; ++i) {
+        now_ns_ += 10 * kMillisecond_ns;
+        for (auto& value : acceleration) value += 0.01F;
+        te_samples(state_.get(), TE_ACCELERATION, now_ns_ - 9 * kMillisecond_ns, kMillisecond_ns, acceleration.data(),
+                   10);
+    }
+    EXPECT_GT(state_->windows_lost, before);
+    EXPECT_NE(fault() & TE_FAULT_STALE, kNone) << "the newest frame is old";
+    EXPECT_GE(slide(5000), 2);
+}
+
+}  // namespace tacto::test
