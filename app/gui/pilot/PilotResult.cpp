@@ -193,10 +193,11 @@ void PilotResult::show(const RunResult& result, const QString& folder, bool ofSt
     why_->setVisible(!why.isEmpty());
 
     QStringList more;
-    if (const double p = numberIn(results, "p_chance"); std::isfinite(p))
+    const bool untested = numberIn(results, "n") == 0;  // the session ended before its test: nothing to compare
+    if (const double p = numberIn(results, "p_chance"); !untested && std::isfinite(p))
         more << (p < 0.001 ? tr("Guessing would reach that in fewer than 1 of 1000 sessions (p < 0.001).")
                            : tr("Guessing would reach that with p = %1.").arg(decimalText(p, 3)));
-    if (std::isfinite(numberIn(results, "it_corrected_bits")))
+    if (!untested && std::isfinite(numberIn(results, "it_corrected_bits")))
         more << tr("Information: %1 of 2 bit; what chance adds is taken off.")
                     .arg(qtext(bitsText(correctedBitsFrom(results))));
     if (const double empty = numberIn(results, "catch.n"); std::isfinite(empty) && empty > 0)
@@ -245,7 +246,8 @@ void PilotResult::showMatrix(const nlohmann::json& results) {
     const auto& labels = memberAt(results, "labels");
     const auto& columns = memberAt(results, "columns");
     const auto& counts = memberAt(results, "confusion");
-    const bool there = labels.is_array() && columns.is_array() && counts.is_array() && counts.size() == labels.size();
+    const bool there = numberIn(results, "n") != 0 && labels.is_array() && columns.is_array() && counts.is_array() &&
+                       counts.size() == labels.size();
     matrix_->setVisible(there);
     matrixTitle_->setVisible(there);
     std::vector<ResultColumn> shown;

@@ -74,6 +74,28 @@ TEST(PilotResult, SaysTheHeadlineOnceWhateverItIs) {
     }
 }
 
+TEST(PilotResult, ShowsNothingOfATestThatWasNotReached) {
+    RunResult run;
+    auto results = someResults();
+    results["n"] = 0;
+    results["p_chance"] = 1.0;
+    for (auto& row : results["confusion"])
+        for (auto& count : row) count = 0;
+    run.outcome.results = results;
+    gui::PilotResult view;
+    view.show(run, "/home/lab/rehearsal-1");
+    const auto* matrix = view.findChild<QTableWidget*>("confusion");
+    EXPECT_TRUE(matrix->isHidden());
+    for (const auto* label : view.findChildren<QLabel*>()) {
+        const auto said = label->isHidden() ? std::string() : label->text().toStdString();
+        for (const char* word : {"Guessing", "Information", "Stimulus"})
+            EXPECT_EQ(said.find(word), std::string::npos) << said;
+    }
+    run.outcome.results = someResults();
+    view.show(run, "/home/lab/rehearsal-1");
+    EXPECT_FALSE(matrix->isHidden());
+}
+
 TEST(PilotResult, ShowsTheMatrixAndLooksRight) {
     RunResult run;
     run.outcome.results = someResults();
