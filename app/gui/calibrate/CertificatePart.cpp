@@ -1,6 +1,9 @@
 #include "app/gui/calibrate/CertificatePart.h"
 
 #include <QDialogButtonBox>
+#include <algorithm>
+#include <array>
+#include <utility>
 
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Dialogs.h"
@@ -14,6 +17,27 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kDetailChars = 72;  // width in characters
+
+/// What an empty field waits for, by the detail's key.
+QString hintOf(std::string_view key) {
+    constexpr std::array<std::pair<std::string_view, const char*>, 14> kHints{
+        {{"laboratory", QT_TR_NOOP("name of your laboratory")},
+         {"address", QT_TR_NOOP("street and town of the laboratory")},
+         {"place", QT_TR_NOOP("where the run takes place, such as room 12")},
+         {"number", QT_TR_NOOP("your number of this certificate, such as LT-26-017")},
+         {"customer", QT_TR_NOOP("who ordered the calibration")},
+         {"contact", QT_TR_NOOP("who speaks for the customer")},
+         {"make", QT_TR_NOOP("who made the stimulator")},
+         {"model", QT_TR_NOOP("as the stimulator reports it")},
+         {"serial", QT_TR_NOOP("as the stimulator reports it")},
+         {"condition", QT_TR_NOOP("such as: no damage seen")},
+         {"received", QT_TR_NOOP("as 2026-11-21")},
+         {"issued", QT_TR_NOOP("as 2026-11-21")},
+         {"authorised_by", QT_TR_NOOP("who signs for the laboratory")},
+         {"function", QT_TR_NOOP("of who signs, such as head of laboratory")}}};
+    const auto found = std::ranges::find(kHints, key, &std::pair<std::string_view, const char*>::first);
+    return found == kHints.end() ? QString() : CertificateForm::tr(found->second);
+}
 
 std::filesystem::path ifThere(const std::filesystem::path& file) {
     std::error_code ignored;
@@ -40,9 +64,10 @@ CertificateForm::CertificateForm(std::filesystem::path order, QWidget* parent)
     for (const auto& detail : kCertificateDetails) {
         const auto title = qtext(detail.title), text = qtext(details.*detail.member);
         if (detail.isDate)
-            fields.push_back(dayField(detail.key.data(), title, tr("For example 2026-11-21."), "2026-11-21"));
+            fields.push_back(dayField(detail.key.data(), title, tr("For example 2026-11-21."), hintOf(detail.key)));
         else
-            fields.push_back(textField(detail.key.data(), title, text, tr("As it stands on the certificate.")));
+            fields.push_back(
+                textField(detail.key.data(), title, text, tr("As it stands on the certificate."), hintOf(detail.key)));
     }
     form_ = new FieldForm(all, FieldForm::Labels::Beside);
     form_->show(fields);

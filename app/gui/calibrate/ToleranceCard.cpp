@@ -39,15 +39,15 @@ void ToleranceCard::show(const CalibrationReadings& of) {
     verdict_ = of.verdict;
     const auto* use = of.nearest();
     share_ = use != nullptr ? use->share() : 0;
-    large_ = use != nullptr ? limitShareText(100 * share_) : QString::number(of.readings.size());
-    beside_ = use != nullptr ? tr("of the tolerance used") : tr("readings");
+    large_ = use != nullptr ? limitShareText(100 * share_) : tr("%1 readings").arg(of.readings.size());
+    beside_ = use != nullptr ? tr("of the tolerance used") : QString();
     where_ = use != nullptr
                  ? tr("at %1: %2")
                        .arg(settingText(use->commanded, of.unit), uncertainText(use->error, use->expanded, of.unit))
                  : QString();
     tolerance_ = use != nullptr ? tr("tolerance ± %1").arg(settingText(use->tolerance, of.unit)) : QString();
     whereOf_ = use != nullptr ? tr("%1 of ± %2").arg(where_, settingText(use->tolerance, of.unit)) : QString();
-    const auto said = QStringList{verdict_, large_ + ' ' + beside_, where_, tolerance_}.join("; ");
+    const auto said = QStringList{verdict_, (large_ + ' ' + beside_).trimmed(), where_, tolerance_}.join("; ");
     setToolTip(tr("%1: %2. Shows it in the plot.").arg(text(), said));
     setAccessibleDescription(said);
     update();

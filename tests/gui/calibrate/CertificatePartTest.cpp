@@ -57,6 +57,15 @@ TEST_F(CertificateEntries, WhatIsEnteredReachesTheRunAndTheLaboratorysIsKept) {
     EXPECT_EQ(ofRun(), known) << "the laboratory's own stay";
 }
 
+TEST_F(CertificateEntries, EachEmptyFieldSaysWhatItWaitsFor) {
+    auto& entered = form();
+    for (const auto& detail : kCertificateDetails) {
+        const auto* line = entered.findChild<QLineEdit*>(detail.key.data());
+        EXPECT_FALSE(line->placeholderText().isEmpty()) << detail.title;
+        EXPECT_LT(line->fontMetrics().horizontalAdvance(line->placeholderText()), line->width() - 16) << detail.title;
+    }
+}
+
 TEST_F(CertificateEntries, ADayThatCannotBeIsSaidAndNothingIsKept) {
     RecordProperty("hazard", "H8");
     auto& entered = form();
