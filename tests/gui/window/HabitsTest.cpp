@@ -8,8 +8,10 @@
 #include <QMimeData>
 #include <QPointer>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QScrollBar>
 #include <QSettings>
+#include <QTabBar>
 #include <QTabWidget>
 #include <QTableWidget>
 #include <QTextBlock>
@@ -191,6 +193,37 @@ TEST_F(Habits, F1OpensTheGuideAtTheWorkspaceInFront) {
         EXPECT_EQ(pageOf(*guide), "index.md");
     }
     guide->close();
+    window.showWorkspace(0);  // the next window starts on the page where this one ends
+}
+
+/// A place is written *Menu → Entry* or *Workspace → Tab → Button*; each part is something that can be pressed.
+TEST_F(Habits, EachPlaceThatTheGuideNamesIsThere) {
+    std::set<QString> there;
+    const auto add = [&](const QString& text) { there.insert(QString(text).remove('&')); };
+    for (int each = 0; each < 7; ++each) window.showWorkspace(each);
+    for (const auto* menu : window.menuBar()->actions()) {
+        emit menu->menu()->aboutToShow();
+        add(menu->text());
+        for (const auto* entry : menu->menu()->actions()) add(entry->text());
+    }
+    for (const auto* button : window.findChildren<QAbstractButton*>()) add(button->text());
+    for (const auto* tabs : window.findChildren<QTabBar*>())
+        for (int tab = 0; tab < tabs->count(); ++tab) add(tabs->tabText(tab));
+    for (const auto* box : window.findChildren<QComboBox*>())
+        for (int item = 0; item < box->count(); ++item) add(box->itemText(item));
+    const QRegularExpression place("\\*([^*\n]* → [^*\n]*)\\*");
+    int places = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(sourceDir() / "resources" / "help" / "guide")) {
+        QFile file(QString::fromStdString(entry.path().string()));
+        ASSERT_TRUE(file.open(QIODevice::ReadOnly));
+        for (auto found = place.globalMatch(QString::fromUtf8(file.readAll())); found.hasNext(); ++places) {
+            const auto whole = found.next().captured(1);
+            for (const auto& part : whole.split(" → "))
+                EXPECT_TRUE(there.contains(part))
+                    << entry.path().filename() << ": " << whole.toStdString() << " has no " << part.toStdString();
+        }
+    }
+    EXPECT_GT(places, 15);
     window.showWorkspace(0);  // the next window starts on the page where this one ends
 }
 
