@@ -15,7 +15,8 @@ namespace {
 
 void declareReport(QCommandLineParser& parser) {
     parser.addOptions(
-        {{"out", "The report to write; its ending says which kind: .pdf or .html.", "report.pdf"},
+        {{"out", "The report to write; its ending says which kind: .pdf or .html. For a session also several times.",
+          "report.pdf"},
          {"figures", "For a study: each figure as an SVG file in this new or empty folder, in place of a report.",
           "DIR"},
          {"participant", "For a study: one page in plain words for the participant with that code.", "CODE"},
@@ -60,6 +61,8 @@ int reportStudy(const QCommandLineParser& parser, const std::string& folder) {
     if (!reader.empty() && parser.isSet("participant"))
         return usage("report: --for and --participant name two reports; one of them is accepted");
     const bool figures = parser.isSet("figures");
+    if (parser.values("out").size() > 1)
+        return usage("report: --out is given more than once; a study's report is one file");
     if (figures && (parser.isSet("out") || parser.isSet("participant") || !reader.empty()))
         return usage(
             "report: --figures writes figures in place of a report; no --out, --for or --participant is "
@@ -112,21 +115,23 @@ int runReport(const QCommandLineParser& parser) {
         return usage("report: --figures is for a study; " + *session + " is none");
     if (!parser.isSet("figures")) {
         if (!parser.isSet("out")) return usage("report: --out is missing");
-        const auto format = reportFormat(parser.value("out"));
-        if (!format) return usage("report: " + format.error().message);
+        for (const auto& out : parser.values("out"))
+            if (const auto format = reportFormat(out); !format) return usage("report: " + format.error().message);
     }
     if (Study::isThere(*session)) return reportStudy(parser, *session);
-    const auto made = writeSessionReport(QString::fromStdString(*session), parser.value("out"));
+    const auto made = writeSessionReport(QString::fromStdString(*session), parser.values("out"));
     if (!made) {
         auto error = made.error();
         // Error messages of the database do not name the file.
-        if (error.message.find(*session) == std::string::npos &&
-            error.message.find(parser.value("out").toStdString()) == std::string::npos) {
+        const auto names = [&](const QString& file) {
+            return error.message.find(file.toStdString()) != std::string::npos;
+        };
+        if (!names(QString::fromStdString(*session)) && std::ranges::none_of(parser.values("out"), names)) {
             error.message = fmt::format("{}: {}", *session, error.message);
         }
         return couldNotRun(error);
     }
-    say("{}\n", parser.value("out").toStdString());
+    for (const auto& out : parser.values("out")) say("{}\n", out.toStdString());
     if (made->isEmpty()) return kDone;
     say(stderr, "tactoscope-cli: DAMAGED: {} is not what was recorded, and every page of its report says so: {}\n",
         *session, made->join("; ").toStdString());

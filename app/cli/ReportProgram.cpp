@@ -37,10 +37,12 @@ int becomeReportProgram(char** argv) {
     return couldNotRun(missing(std::strerror(errno)));
 }
 
-Result<void> makeReport(const std::filesystem::path& session, const std::filesystem::path& out) {
+Result<void> makeReports(const std::filesystem::path& session, const std::vector<std::filesystem::path>& outs) {
+    QStringList words{QString::fromStdString(session.string())};
+    for (const auto& out : outs) words << "--out" << QString::fromStdString(out.string());
     QProcess program;
     program.setProgram(QString::fromStdString(programPath()));
-    program.setArguments({QString::fromStdString(session.string()), "--out", QString::fromStdString(out.string())});
+    program.setArguments(words);
     program.setStandardInputFile(QProcess::nullDevice());
     program.setStandardOutputFile(QProcess::nullDevice());
     program.setChildProcessModifier([] {
@@ -52,7 +54,8 @@ Result<void> makeReport(const std::filesystem::path& session, const std::filesys
     program.waitForFinished(-1);
     const auto sentence = sentenceIn(program.readAllStandardError());
     if (program.exitStatus() != QProcess::NormalExit)
-        return fail(ErrorCode::Io, "{} ended unexpectedly while it wrote {}", programPath(), out.string());
+        return fail(ErrorCode::Io, "{} ended unexpectedly while it wrote {}", programPath(),
+                    words.sliced(1).join(" ").toStdString());
     if (program.exitCode() == kDone) return {};
     if (program.exitCode() != kVerdictFailed) return fail(ErrorCode::Io, "{}", sentence);
     say(stderr, "tactoscope-cli: {}\n", lines(sentence));

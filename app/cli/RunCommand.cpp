@@ -295,15 +295,14 @@ void printSummary(const ScriptOutcome& outcome, const json& value) {
 
 /// Writes the reports next to the session; returns the path of the last report, or null if there is none.
 json writeReports(const RunFiles& files, const std::vector<const char*>& endings) {
-    json report = nullptr;
-    for (const auto* ending : endings) {
-        const auto path = files.report(ending);
-        if (const auto made = makeReport(files.session, path); made)
-            report = path.string();
-        else
-            say(stderr, "tactoscope-cli: no report: {}\n", lines(made.error().message));
-    }
-    return report;
+    if (endings.empty()) return nullptr;
+    std::vector<std::filesystem::path> paths;
+    for (const auto* ending : endings) paths.push_back(files.report(ending));
+    if (const auto made = makeReports(files.session, paths); !made)
+        say(stderr, "tactoscope-cli: no report: {}\n", lines(made.error().message));
+    std::error_code error;
+    std::erase_if(paths, [&](const auto& path) { return !std::filesystem::exists(path, error); });
+    return paths.empty() ? json(nullptr) : json(paths.back().string());
 }
 
 int runRun(const QCommandLineParser& parser) {

@@ -39,9 +39,9 @@ enum class ReportFormat { Pdf, Html };
 /// table too wide for the page continues below, with its first column repeated. Errors: Io if `device` fails.
 [[nodiscard]] Result<void> writePdf(const ReportContent& content, QIODevice& device);
 
-/// Verifies `sessionFile` and writes its report to `path`. Returns what is wrong with the session, or nothing if it is
-/// intact: the report of an altered session is marked DAMAGED on every page (hazard H8).
-/// Errors: as writeReport(), and as readSessionReport().
-[[nodiscard]] Result<QStringList> writeSessionReport(const QString& sessionFile, const QString& path);
+/// Verifies `sessionFile` once and writes its report to each of `paths`. Returns what is wrong with the session, or
+/// nothing if it is intact: the report of an altered session is marked DAMAGED on every page (hazard H8).
+/// Errors: as readSessionReport(); as writeReport(), after all other paths were written.
+[[nodiscard]] Result<QStringList> writeSessionReport(const QString& sessionFile, const QStringList& paths);
 
 }  // namespace tacto

@@ -365,11 +365,15 @@ Result<ReportModel> readSessionReport(const std::filesystem::path& sessionFile) 
     return model;
 }
 
-Result<QStringList> writeSessionReport(const QString& sessionFile, const QString& path) {
-    if (const auto format = reportFormat(path); !format) return failure(format);
+Result<QStringList> writeSessionReport(const QString& sessionFile, const QStringList& paths) {
+    for (const auto& path : paths)
+        if (const auto format = reportFormat(path); !format) return failure(format);
     const auto model = readSessionReport(sessionFile.toStdString());
     if (!model) return failure(model);
-    if (const auto written = writeReport(*model, path); !written) return failure(written);
+    Result<void> all;
+    for (const auto& path : paths)
+        if (auto written = writeReport(*model, path); !written && all) all = std::move(written);
+    if (!all) return failure(all);
     return model->damage;
 }
 

@@ -260,7 +260,7 @@ TEST_F(SessionReport, IsMadeFromTheSessionAlone) {
     ASSERT_TRUE(writer_->verdict(Instant{0}, "separability", "pass", {"All pairs apart."}, {}));
     ASSERT_TRUE(writer_->close());
     const auto html = scratch_.path() / "run.html";
-    accepted(writeSessionReport(QString::fromStdString(path_.string()), QString::fromStdString(html.string())));
+    accepted(writeSessionReport(QString::fromStdString(path_.string()), {QString::fromStdString(html.string())}));
     EXPECT_TRUE(contentOfFile(html).contains("All pairs apart."));
     EXPECT_TRUE(contentOfFile(html).contains(QByteArray::fromStdString(writer_->chainHead())));
 }
