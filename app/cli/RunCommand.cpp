@@ -56,6 +56,14 @@ void declareRun(QCommandLineParser& parser) {
                       "Of a pilot session: where recorders of EEG or EMG connect for its markers, a port of this "
                       "computer or ADDRESS:PORT.",
                       "PORT"});
+    parser.addOption(
+        {"lsl",
+         "Sends what the session records, while it does, as streams of the Lab Streaming Layer: "
+         "Tactoscope-markers, Tactoscope-frames and Tactoscope-trains; of a pilot session its markers alone. "
+         "Needs liblsl and real time."});
+    parser.addOption({"lsl-markers",
+                      "Takes the texts of another program's LSL stream into the session, as the operator's marks.",
+                      "NAME"});
     parser.addOption({"report", "Which report is written: none, html or pdf; both where left out.", "KIND"});
     parser.addOption({"json", "Prints one JSON value."});
 }
@@ -142,6 +150,10 @@ tl::expected<RunOrder, int> orderFrom(const QCommandLineParser& parser, const Si
                    parser.value("reviewer").toStdString(), parser.value("ambient").toStdString()};
     if (const auto checked = checkNotes(order.notes); !checked)
         return tl::unexpected(usage("run: " + checked.error().message));
+    order.lsl = {parser.isSet("lsl"), parser.value("lsl-markers").toStdString()};
+    if (parser.isSet("lsl-markers"))
+        if (const auto named = LslNotes::checkName(order.lsl.markers); !named)
+            return tl::unexpected(usage("run: " + named.error().message));
     order.certificateDetails = parser.value("certificate-details").toStdString();
     if (!order.certificateDetails.empty()) {
         if (resultTraits(order.declaration.kind).kind != ResultKind::StimulatorCalibration) {
@@ -338,6 +350,7 @@ int runRun(const QCommandLineParser& parser) {
     const int exitCode = exitFor(result);
     const auto verdict = result.verdict();
     if (result.markers) say(stderr, "{}\n", markersSentence(*result.markers));
+    if (result.lsl) say(stderr, "{}\n", lines(lslSentence(*result.lsl)));
     json value{{"protocol", protocol},
                {"script_from", origin},
                {"verdict", verdict.empty() ? json(nullptr) : json(verdict)},
@@ -350,6 +363,7 @@ int runRun(const QCommandLineParser& parser) {
                {"results", outcome.results},
                {"reasons", outcome.reasons},
                {"error", outcome.error ? json(outcome.error->message) : json(nullptr)}};
+    if (result.lsl) value["lsl"] = toJson(*result.lsl);
     if (running.session) value["markers"] = result.markers ? toJson(*result.markers) : json(nullptr);
     if (parser.isSet("json"))
         printJson(value);
@@ -364,7 +378,7 @@ const Command kRun{
     "run",
     "PROTOCOL [--device URI]... [--set KEY=VALUE]... [--seed N] [--profile F] [--realtime] [--reset-fault] "
     "[--operator NAME] [--sample ID] [--reviewer NAME] [--ambient TEXT] [--certificate-details F] [--out DIR] "
-    "[--passphrase-file F] [--markers [ADDRESS:]PORT] [--report none|html|pdf] [--json]",
+    "[--passphrase-file F] [--markers [ADDRESS:]PORT] [--lsl] [--lsl-markers NAME] [--report none|html|pdf] [--json]",
     "Runs a protocol script, records it and writes its report", declareRun, runRun};
 
 }  // namespace tacto::cli

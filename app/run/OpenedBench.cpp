@@ -1,6 +1,7 @@
 #include "app/run/OpenedBench.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/run/KnownCalibration.h"
 #include "app/run/OpenDevices.h"
@@ -53,6 +54,21 @@ Result<void> warnOfProfile(const Profile& profile, const DeviceSet& devices, Ope
 
 }  // namespace
 
+OpenedBench::~OpenedBench() {
+    bench.reset();
+    if (!lsl) return;
+    session->listen(nullptr);
+    static_cast<void>(lsl->end());
+}
+
+std::optional<LslTally> OpenedBench::endLsl() {
+    if (!lsl) return std::nullopt;
+    session->listen(nullptr);
+    const auto tally = std::exchange(lsl, nullptr)->end();
+    static_cast<void>(session->event(clock->now(), "lsl", toJson(tally)));
+    return tally;
+}
+
 SessionAbout aboutSession(const DeviceSet& devices, const BenchOrder& order) {
     SessionAbout about = order.about;
     about.programVersion = programVersion().version;
@@ -73,11 +89,25 @@ SessionAbout aboutSession(const DeviceSet& devices, const BenchOrder& order) {
     return about;
 }
 
+Result<std::shared_ptr<LslStreams>> prepareLsl(const BenchOrder& order, Registry& registry) {
+    if (!order.lsl.wanted()) return nullptr;
+    const auto allVirtual = registry.allVirtual(order.uris);
+    if (!allVirtual) return failure(allVirtual);
+    if (*allVirtual && !order.realtime)
+        return fail(
+            ErrorCode::InvalidArgument,
+            "LSL has the computer's clock, and these devices run on a simulated one, which is faster; real time "
+            "(--realtime) is expected");
+    return LslStreams::prepare(order.lsl, order.mode == OutputMode::Person);
+}
+
 Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry& registry,
                                                std::shared_ptr<BenchTap> tap) {
     if (auto checked = checkNotes(order.notes); !checked) return failure(checked);
     const auto allVirtual = registry.allVirtual(order.uris);
     if (!allVirtual) return failure(allVirtual);
+    auto lsl = prepareLsl(order, registry);
+    if (!lsl) return failure(lsl);
     auto opened = std::make_shared<OpenedBench>();
     opened->tap = std::move(tap);
     if (*allVirtual && !order.realtime)
@@ -101,6 +131,8 @@ Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry
     opened->files = std::move(session->files);
     opened->session = std::move(session->writer);
     opened->seal = std::move(session->seal);
+    opened->lsl = std::move(*lsl);
+    if (opened->lsl) opened->session->listen(opened->lsl);
     if (auto warned = warnOfProfile(order.profile, *devices, *opened); !warned) return failure(warned);
     if (auto kept = keepCertificate(certificate, *opened->session, opened->clock->now()); !kept) return failure(kept);
     if (!certificate.used && !certificate.text.empty()) opened->warnings.push_back(certificate.text);
@@ -124,6 +156,11 @@ Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry
     auto bench = Bench::create(std::move(config));
     if (!bench) return failure(bench);
     opened->bench = std::move(*bench);
+    if (opened->lsl) {
+        auto begun =
+            opened->lsl->begin(*opened->session, opened->about, opened->files.session.stem().string(), opened->clock);
+        if (!begun) return failure(begun);
+    }
     return opened;
 }
 

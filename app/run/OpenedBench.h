@@ -15,6 +15,7 @@
 #include "core/bench/sensing/BenchTap.h"
 #include "core/devices/DeviceUri.h"
 #include "core/devices/Registry.h"
+#include "core/exchange/lsl/LslStreams.h"
 #include "core/session/SessionWriter.h"
 
 namespace tacto {
@@ -42,27 +43,43 @@ struct BenchOrder {
     /// Makes the session file instead of makeRunSession(), unless empty. Gets the open devices and may refuse them;
     /// then it has made nothing.
     std::function<Result<RunSession>(const SessionAbout&, const Clock&, const DeviceSet&)> makeSession = {};
+    LslOrder lsl = {};        ///< streams while the bench is open; none by default
     SessionAbout about = {};  ///< for a protocol: its script and parameters; aboutSession() adds the rest
 };
 
 struct OpenedBench {
+    OpenedBench() = default;
+    ~OpenedBench();
+    OpenedBench(const OpenedBench&) = delete;
+    OpenedBench& operator=(const OpenedBench&) = delete;
+
     std::shared_ptr<Clock> clock;
     std::shared_ptr<BenchTap> tap;  ///< null: no view is open
     RunFiles files;
     SessionAbout about;
     std::unique_ptr<SessionWriter> session;
+    std::shared_ptr<LslStreams> lsl;      ///< null: none; ends before the session is closed
     std::shared_ptr<const RowSeal> seal;  ///< seals the session's rows; null: rows are not sealed
     std::unique_ptr<Bench> bench;         // destroyed before the objects that it writes to
     /// What the operator should know before anything is delivered, one sentence each. The session records what a report
     /// needs of these.
     std::vector<std::string> warnings;
+
+    /// Ends the streams and writes the session's row "lsl" about them. Once the bench is gone, and with it the last
+    /// train. Nothing if there are none. An error in writing the row is found when the session is closed.
+    std::optional<LslTally> endLsl();
 };
 
 /// Opens the devices, makes the session file and the bench. A stop ends the opening of devices; the bench's begin()
 /// detects a later stop.
-/// Errors: as checkNotes(), Registry::allVirtual(), openDevices(), makeRunSession() and Bench::create().
+/// Errors: as checkNotes(), prepareLsl(), openDevices(), makeRunSession(), Bench::create() and LslStreams::begin().
 [[nodiscard]] Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry& registry,
                                                              std::shared_ptr<BenchTap> tap = nullptr);
+
+/// Returns the order's streams before anything is opened; null if it wants none. Errors: as Registry::allVirtual() and
+/// LslStreams::prepare(); InvalidArgument if the session would have a virtual clock, whose times mean nothing to
+/// others.
+[[nodiscard]] Result<std::shared_ptr<LslStreams>> prepareLsl(const BenchOrder& order, Registry& registry);
 
 /// Returns the description of a session before its first row.
 [[nodiscard]] SessionAbout aboutSession(const DeviceSet& devices, const BenchOrder& order);

@@ -141,7 +141,6 @@ void PilotRun::fitOrder(RunOrder& order, const PilotOrder& pilot) {
     order.person = massager ? vibrated(who_) : stimulated(who_, study, profile);
     order.virtualParticipant = who_.isVirtual();
     order.rehearsal = study_.isRehearsal();
-    order.realtime = order.realtime || pilot.people != nullptr;
     if (order.uris.empty()) order.uris.push_back({"sim", "", {}});
     if (massager)
         order.ownNeeds = {Role::Massager};
@@ -228,6 +227,8 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
         if (!listens) return failure(listens);
         markers = std::move(*listens);
     }
+    order.realtime = order.realtime || pilot.people != nullptr;
+    if (auto lsl = prepareLsl(order, registry); !lsl) return failure(lsl);
     if (auto held = virtualChecklist(order, pilot.study); !held) return failure(held);  // before a rehearsal is made
     auto study = openStudyFor(order, pilot);
     if (!study) return failure(study);
@@ -265,9 +266,12 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     made->run_ = std::move(*run);
     const auto& opened = made->run_->opened();
     made->record_ = std::make_unique<PilotRecord>(*opened.session, *opened.clock, made->unfinished_.earlier().events);
-    if (made->markers_) {
-        made->markers_->begin(opened.clock);
-        made->record_->onMarker = [to = made->markers_](const PilotMarker& each) { to->send(each.at, each.name); };
+    if (made->markers_) made->markers_->begin(opened.clock);
+    if (made->markers_ || opened.lsl) {
+        made->record_->onMarker = [tcp = made->markers_, lsl = opened.lsl](const PilotMarker& each) {
+            if (tcp) tcp->send(each.at, each.name);
+            if (lsl) lsl->marker(each.at, each.name);
+        };
     }
     if (pilot.watch != nullptr && people == made->virtual_.get()) {
         made->virtual_->onShow = watching(*pilot.watch, pilot.pace, opened.clock);

@@ -159,6 +159,7 @@ RunResult ProtocolRun::finish() {
     result.leftInFault = bench().telemetry().state == InterlockState::Faulted;
     if (check_) check_->area = bench().profile().electrodeArea;  // as used in the run
     opened_->bench.reset();
+    result.lsl = opened_->endLsl();
     if (auto closed = session.close(result.outcome.error ? "ended by an error" : "finished"); !closed)
         result.troubles.push_back(closed.error());
     opened_->session.reset();

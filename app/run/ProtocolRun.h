@@ -44,6 +44,7 @@ struct RunResult {
     std::filesystem::path session;
     std::vector<Error> troubles;         ///< errors in addition to the outcome's own: closing the session
     std::optional<MarkerTally> markers;  ///< for a pilot session with markers
+    std::optional<LslTally> lsl;         ///< for a session with streams
     /// Returns pass, fail, indeterminate or stopped; empty for a protocol without a judgement or a run with an error.
     [[nodiscard]] std::string verdict() const;
     /// If nothing else failed, makes the first trouble the error and removes the verdict. Drops troubles that the error

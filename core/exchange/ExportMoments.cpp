@@ -16,6 +16,8 @@ std::string amplitudeOf(const ExportTrain& train) {
     return {};
 }
 
+}  // namespace
+
 std::string wordsFor(const ExportTrain& train) {
     using enum ExportTrain::Outcome;
     const auto because = train.reason.empty() ? std::string() : ": " + train.reason;
@@ -36,17 +38,20 @@ std::string wordsFor(const ExportTrain& train) {
     return "train without a report" + amplitudeOf(train);
 }
 
-}  // namespace
+std::string wordsFor(const SessionTrial& trial) { return fmt::format("trial {} {}", trial.number, trial.condition); }
+
+std::optional<std::string> wordsFor(const SessionRow& event) {
+    if (event.name != "interlock" && event.name != "note" && event.name != kOperatorMarkEvent) return std::nullopt;
+    return event.name + " " + textOr(event.body, "text");
+}
 
 Result<void> forEachMomentInWords(const ExportSource& source,
                                   const std::function<Result<void>(const ExportMoment&)>& visit) {
     std::vector<ExportMoment> few;  // all but trains, which may be many
     for (const auto& mark : source.marks()) few.push_back({0, mark});
-    for (const auto& trial : source.trialRows())
-        few.push_back({toSeconds(trial.at), fmt::format("trial {} {}", trial.number, trial.condition)});
+    for (const auto& trial : source.trialRows()) few.push_back({toSeconds(trial.at), wordsFor(trial)});
     for (const auto& event : source.eventRows()) {
-        if (event.name == "interlock" || event.name == "note" || event.name == kOperatorMarkEvent)
-            few.push_back({toSeconds(event.at), event.name + " " + textOr(event.body, "text")});
+        if (auto words = wordsFor(event)) few.push_back({toSeconds(event.at), *std::move(words)});
     }
     std::ranges::stable_sort(few, {}, &ExportMoment::time_s);
     auto next = few.begin();

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "core/exchange/ExportSource.h"
@@ -15,6 +16,11 @@ struct ExportMoment {
     double time_s = 0;
     std::string text;  ///< "trial 12 rough-low", "train 39.95 V", "interlock armed"
 };
+
+/// The words of one moment; none for an event that is no moment.
+[[nodiscard]] std::string wordsFor(const ExportTrain& train);
+[[nodiscard]] std::string wordsFor(const SessionTrial& trial);
+[[nodiscard]] std::optional<std::string> wordsFor(const SessionRow& event);
 
 /// The marks at 0, then each trial, train, change of the interlock and note, in the order of their times.
 [[nodiscard]] Result<void> forEachMomentInWords(const ExportSource& source,

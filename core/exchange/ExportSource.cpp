@@ -23,38 +23,6 @@ namespace {
 
 using nlohmann::json;
 
-bool isSimulated(const SessionDevice& device) {
-    const auto from = originOf(device);
-    return device.simulated || from == origin::kSimulated || from == origin::kReplayedSimulated;
-}
-
-/// Whether what devices of these roles made is simulated; `otherwise` if there are none.
-bool simulatedOf(const SessionAbout& about, std::initializer_list<Role> roles, bool otherwise) {
-    bool any = false, simulated = false;
-    for (const auto& device : about.devices) {
-        if (std::ranges::none_of(roles, [&](Role role) { return device.is(role); })) continue;
-        any = true;
-        simulated |= isSimulated(device);
-    }
-    return any ? simulated : otherwise;
-}
-
-std::string unitOf(const SessionStream& stream, const std::string& column) {
-    if (!stream.unit.empty()) return stream.unit;
-    return column.ends_with("_pa") ? "Pa" : "1";
-}
-
-/// Returns the unique name of each column of a stream, the same in every format.
-std::vector<ExportChannel> channelsOf(const SessionStream& stream, const std::string& kind) {
-    std::vector<ExportChannel> channels;
-    std::set<std::string> names;
-    for (const auto& column : stream.columns) {
-        const auto wanted = kind == "frames" ? column : stream.columns.size() == 1 ? kind : kind + "_" + column;
-        channels.push_back({.name = uniqueName(wanted, "~", names), .unit = unitOf(stream, column)});
-    }
-    return channels;
-}
-
 /// Keeps what a name of a file or a data set may hold.
 std::string plainName(std::string name) {
     for (auto& c : name) {

@@ -11,6 +11,7 @@
 #include "core/base/Words.h"
 #include "core/kinds/ResultKinds.h"
 #include "core/results/ResultRecord.h"
+#include "core/session/Origin.h"
 
 namespace tacto {
 
@@ -18,6 +19,40 @@ std::string uniqueName(const std::string& wanted, std::string_view between, std:
     auto name = wanted;
     for (int again = 2; !taken.insert(name).second; ++again) name = fmt::format("{}{}{}", wanted, between, again);
     return name;
+}
+
+bool isSimulated(const SessionDevice& device) {
+    const auto from = originOf(device);
+    return device.simulated || from == origin::kSimulated || from == origin::kReplayedSimulated;
+}
+
+bool simulatedOf(const SessionAbout& about, std::initializer_list<Role> roles, bool otherwise) {
+    bool any = false, simulated = false;
+    for (const auto& device : about.devices) {
+        if (std::ranges::none_of(roles, [&](Role role) { return device.is(role); })) continue;
+        any = true;
+        simulated |= isSimulated(device);
+    }
+    return any ? simulated : otherwise;
+}
+
+namespace {
+
+std::string unitOf(const SessionStream& stream, const std::string& column) {
+    if (!stream.unit.empty()) return stream.unit;
+    return column.ends_with("_pa") ? "Pa" : "1";
+}
+
+}  // namespace
+
+std::vector<ExportChannel> channelsOf(const SessionStream& stream, const std::string& kind) {
+    std::vector<ExportChannel> channels;
+    std::set<std::string> names;
+    for (const auto& column : stream.columns) {
+        const auto wanted = kind == "frames" ? column : stream.columns.size() == 1 ? kind : kind + "_" + column;
+        channels.push_back({.name = uniqueName(wanted, "~", names), .unit = unitOf(stream, column)});
+    }
+    return channels;
 }
 
 namespace {
@@ -190,6 +225,23 @@ void trainCells(const ExportTrain& train, std::vector<ExportCell>& cells) {
     }
 }
 
+std::vector<ExportChannel> numberChannels(const ExportTable& table) {
+    std::vector<ExportChannel> channels;
+    for (std::size_t c = 1; c < table.columns.size(); ++c) {
+        const auto& column = table.columns[c];
+        if (!ExportTable::holdsText(column))
+            channels.push_back({.name = column.at, .unit = column.unit.empty() ? "1" : std::string(column.unit)});
+    }
+    return channels;
+}
+
+std::vector<double> numbersIn(std::span<const ExportCell> cells) {
+    std::vector<double> numbers;
+    for (const auto& cell : cells.subspan(1))
+        if (const auto* number = std::get_if<double>(&cell)) numbers.push_back(*number);
+    return numbers;
+}
+
 const ExportTable& eventTable() {
     static const ExportTable table =
         rowTable("events", "Events", {text("Event", "event"), text("Its details, JSON", "details")});
@@ -212,20 +264,23 @@ bool TrainJoin::isOfTrains(std::string_view command) noexcept {
     return std::ranges::find(kNames, command) != kNames.end();
 }
 
+Result<void> TrainJoin::refuse(const SessionRow& event, const Visit& visit) {
+    ExportTrain train;
+    train.time_s = toSeconds(event.at);
+    train.simulated = simulated_;
+    // A plan that is refused when it is handed over: its onset is not before that moment, and nothing came between.
+    if (!plans_.empty() && plans_.back().train.time_s >= train.time_s) {
+        train = plans_.back().train;
+        plans_.pop_back();
+    }
+    train.outcome = ExportTrain::Outcome::Refused;
+    train.reason = textOr(event.body, "text");
+    return visit(train);
+}
+
 Result<void> TrainJoin::refuseBefore(std::int64_t seq, const Visit& visit) {
     for (; next_ < refused_.size() && refused_[next_]->seq < seq; ++next_) {
-        const auto& row = *refused_[next_];
-        ExportTrain train;
-        train.time_s = toSeconds(row.at);
-        train.simulated = simulated_;
-        // A plan that is refused when it is handed over: its onset is not before that moment, and nothing came between.
-        if (!plans_.empty() && plans_.back().train.time_s >= train.time_s) {
-            train = plans_.back().train;
-            plans_.pop_back();
-        }
-        train.outcome = ExportTrain::Outcome::Refused;
-        train.reason = textOr(row.body, "text");
-        if (auto visited = visit(train); !visited) return visited;
+        if (auto visited = refuse(*refused_[next_], visit); !visited) return visited;
     }
     return {};
 }

@@ -44,6 +44,7 @@ struct SessionWriter::State {
     Instant lastCommit;
     bool closed = false;
     std::optional<Error> failed;
+    std::shared_ptr<SessionListener> listener;  // null: none
 
     [[nodiscard]] Result<void> open() const {
         if (failed) return tl::unexpected<Error>(*failed);
@@ -132,6 +133,11 @@ Result<std::unique_ptr<SessionWriter>> SessionWriter::create(const std::filesyst
     return std::unique_ptr<SessionWriter>(new SessionWriter(std::make_unique<State>(path, clock, std::move(*store))));
 }
 
+void SessionWriter::listen(std::shared_ptr<SessionListener> listener) {
+    const std::lock_guard lock(state_->mutex);
+    state_->listener.swap(listener);
+}
+
 Result<int> SessionWriter::addStream(const SessionStream& stream) {
     const std::lock_guard lock(state_->mutex);
     if (stream.columns.empty()) {
@@ -140,7 +146,9 @@ Result<int> SessionWriter::addStream(const SessionStream& stream) {
     auto row = state_->add(kind::kStream, state_->clock.now(), stream.name, toJson(stream));
     if (!row) return failure(row);
     state_->streams.push_back({stream.columns.size(), {}});
-    return static_cast<int>(state_->streams.size());
+    const auto id = static_cast<int>(state_->streams.size());
+    if (state_->listener) state_->listener->onStream(id, stream);
+    return id;
 }
 
 Result<int> SessionWriter::addStream(const StreamInfo& info) {
@@ -176,6 +184,7 @@ Result<void> SessionWriter::append(int stream, const SampleBlock& block) {
     auto& pending = buffer.pending;
     pending.t_s.insert(pending.t_s.end(), block.t_s.begin(), block.t_s.end());
     pending.values.insert(pending.values.end(), block.values.begin(), block.values.end());
+    if (state_->listener) state_->listener->onSamples(stream, block);
     if (pending.values.size() < kChunkValues) return state_->commitIfDue();
     state_->queueChunk(index);
     if (state_->clock.now() - state_->lastCommit >= kCommitEvery) return state_->commitIfDue();
@@ -184,12 +193,16 @@ Result<void> SessionWriter::append(int stream, const SampleBlock& block) {
 
 Result<std::int64_t> SessionWriter::event(Instant at, std::string_view kind, const nlohmann::json& details) {
     const std::lock_guard lock(state_->mutex);
-    return state_->addNow(kind::kEvent, at, kind, details);
+    auto row = state_->addNow(kind::kEvent, at, kind, details);
+    if (row && state_->listener) state_->listener->onEvent({*row, at, std::string(kind), details});
+    return row;
 }
 
 Result<std::int64_t> SessionWriter::command(Instant at, std::string_view name, const nlohmann::json& details) {
     const std::lock_guard lock(state_->mutex);
-    return state_->add(kind::kCommand, at, name, details);
+    auto row = state_->add(kind::kCommand, at, name, details);
+    if (row && state_->listener) state_->listener->onCommand({*row, at, std::string(name), details});
+    return row;
 }
 
 Result<int> SessionWriter::trial(Instant at, std::string_view condition, const nlohmann::json& measured) {
@@ -197,6 +210,7 @@ Result<int> SessionWriter::trial(Instant at, std::string_view condition, const n
     const int number = state_->trials + 1;
     auto row = state_->addNow(kind::kTrial, at, condition, {{"number", number}, {"measured", measured}});
     if (!row) return failure(row);
+    if (state_->listener) state_->listener->onTrial({*row, number, at, std::string(condition), measured});
     return state_->trials = number;
 }
 

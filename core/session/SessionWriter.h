@@ -26,6 +26,7 @@
 #include "core/base/Stream.h"
 #include "core/measure/Capture.h"
 #include "core/session/RowSeal.h"
+#include "core/session/SessionListener.h"
 #include "core/session/SessionTypes.h"
 
 namespace tacto {
@@ -43,6 +44,10 @@ public:
     ~SessionWriter();
     SessionWriter(const SessionWriter&) = delete;
     SessionWriter& operator=(const SessionWriter&) = delete;
+
+    /// Also tells `listener` of streams, samples, commands, events and trials from now on; null ends this. On return
+    /// the earlier listener is told nothing more.
+    void listen(std::shared_ptr<SessionListener> listener);
 
     /// Adds a stream and returns its id for append(). Errors: InvalidArgument without columns; Io.
     [[nodiscard]] Result<int> addStream(const SessionStream& stream);

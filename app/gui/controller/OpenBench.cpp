@@ -59,6 +59,7 @@ std::optional<Error> DrivenBench::takeRecordingFailure() {
 
 Result<void> DrivenBench::close() {
     opened_->bench.reset();
+    static_cast<void>(opened_->endLsl());
     return opened_->session->close();
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/JsonText.h"
 #include "core/base/Printable.h"
 #include "core/exchange/ExportMoments.h"
+#include "core/exchange/ExportTables.h"
 #include "core/exchange/PieceOut.h"
 #include "core/exchange/xdf/XdfNames.h"
 
@@ -162,14 +163,6 @@ private:
     double begun_s_ = 0;  // the first stamp of the chunk that is being made
 };
 
-/// How XDF's dictionaries call what a unit measures.
-std::string_view typeOf(std::string_view unit) {
-    if (unit == "m/s2") return "Acceleration";
-    if (unit == "N") return "Force";
-    if (unit == "Pa") return "Pressure";
-    return "Misc";
-}
-
 Result<void> writeStream(const ExportSource& source, const ExportStream& stream, StreamOut out) {
     std::vector<StreamOut::Channel> channels;
     for (const auto& channel : stream.channels)
@@ -201,11 +194,7 @@ Result<void> writeStream(const ExportSource& source, const ExportStream& stream,
 Result<void> writeTrains(const ExportSource& source, StreamOut out) {
     const auto& table = source.trains();
     std::vector<StreamOut::Channel> channels;
-    for (std::size_t c = 1; c < table.columns.size(); ++c) {
-        const auto& column = table.columns[c];
-        if (!ExportTable::holdsText(column))
-            channels.push_back({column.at, column.unit.empty() ? "1" : std::string(column.unit), "Stimulation"});
-    }
+    for (const auto& channel : numberChannels(table)) channels.push_back({channel.name, channel.unit, kOfTrains});
     if (auto begun = out.begin(table.name, table.name, Format::Double64, 0, channels,
                                [&](pugi::xml_node desc) { addText(desc, "title", table.title); });
         !begun)
@@ -213,8 +202,7 @@ Result<void> writeTrains(const ExportSource& source, StreamOut out) {
     std::string values;
     auto read = source.forEachRow(table, [&](std::span<const ExportCell> cells) -> Result<void> {
         values.clear();
-        for (std::size_t c = 1; c < cells.size(); ++c)
-            if (const auto* number = std::get_if<double>(&cells[c])) XdfOut::put(values, *number);
+        for (const double number : numbersIn(cells)) XdfOut::put(values, number);
         return out.add(std::get<double>(cells[0]), values);
     });
     return read ? out.end() : read;

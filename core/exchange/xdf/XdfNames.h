@@ -42,6 +42,13 @@ inline constexpr Word<Format> kFormats[] = {
 inline constexpr char kStamped = 8;
 inline constexpr char kDeduced = 0;
 
+/// How XDF's dictionaries call what a unit measures, and the numbers of trains.
+[[nodiscard]] constexpr const char* typeOf(std::string_view unit) noexcept {
+    return unit == "m/s2" ? "Acceleration" : unit == "N" ? "Force" : unit == "Pa" ? "Pressure" : "Misc";
+}
+inline constexpr const char* kOfTrains = "Stimulation";
+inline constexpr const char* kMarkers = "Markers";  ///< the type of streams of texts that mark moments
+
 // Elements of the headers, all in <info>.
 inline constexpr const char* kInfo = "info";
 inline constexpr const char* kProgram = "program";      ///< of our files, in the file header: kProgramName and version
