@@ -153,9 +153,7 @@ public:
     }
     template <class Member>
     FieldInfo& add(std::string_view key, Member member, ValueKind<ValueOf<Member>> kind) {
-        auto* const at = reinterpret_cast<std::byte*>(std::addressof(std::invoke(member, example())));
-        const auto offset = static_cast<std::size_t>(at - reinterpret_cast<std::byte*>(&example()));
-        assert(offset + sizeof(Held<Member>) <= sizeof(Record));
+        const auto offset = offsetOf(std::addressof(std::invoke(member, example())), sizeof(Held<Member>));
         return table_.add(key, offset, std::move(kind), Bare<Held<Member>>::kAccess);
     }
 
@@ -205,6 +203,13 @@ private:
     [[nodiscard]] static Record& example() {
         static Record one{};
         return one;
+    }
+    /// Asserts by itself: an assertion prints its function, where a lambda has the name of the folder it lies in.
+    [[nodiscard]] static std::size_t offsetOf(const void* member, std::size_t size) {
+        const auto* const first = reinterpret_cast<const std::byte*>(&example());
+        const auto offset = static_cast<std::size_t>(static_cast<const std::byte*>(member) - first);
+        assert(offset + size <= sizeof(Record));
+        return offset;
     }
 
     RecordTable table_;

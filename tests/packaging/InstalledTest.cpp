@@ -90,6 +90,12 @@ TEST_F(Installed, ProgramsAreStrippedAndCanBeLoadedAnywhere) {
     EXPECT_EQ(programs, 5U);
 }
 
+TEST_F(Installed, NoProgramKnowsInWhichFolderItWasBuilt) {
+    for (const auto& each : fs::directory_iterator(root() / "bin"))
+        for (const auto& folder : {sourceDir().string(), std::string(TACTO_BUILD)})
+            EXPECT_EQ(text(each.path()).find(folder + "/"), std::string::npos) << each.path() << " names " << folder;
+}
+
 TEST_F(Installed, RulesForAnotherDeviceOrGroupComeFromThoseInstalled) {
     const auto target = root().parent_path() / "rules";
     const auto [said, code] =
