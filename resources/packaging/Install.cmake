@@ -62,8 +62,10 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# Beside the libraries: the fonts of window and reports, and the platform on which reports are drawn.
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-noto-core, fonts-dejavu-core, qt6-qpa-plugins")
+# Beside the libraries: the fonts of window and reports, the platform on which reports are drawn, and what reads the
+# pictures of style sheets, which was part of a library.
+set(CPACK_DEBIAN_PACKAGE_DEPENDS
+    "fonts-noto-core, fonts-dejavu-core, qt6-qpa-plugins, qt6-svg-plugins | libqt6svg6 (<< 6.7.2-5~)")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS qt6-wayland)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "pulseview, python3-pyvisa-py")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
