@@ -61,12 +61,12 @@ Result<void> BenchPulse::leaveFault() {
                     "with --reset-fault, or Bench > Reset fault in the window",
                     interlock_.reason().view(), outputAfter(interlock_.cause()));
     }
+    const auto seen = interlock_.causesCame();
     session_.forceOff();
     const auto status = device_.status();
     if (!status) return fail(ErrorCode::NotArmed, "not reset: {}", status.error().message);
     if (status->delivering) return fail(ErrorCode::NotArmed, "not reset: the stimulator still delivers");
-    for (int cause = 0; cause < kFaultCauseCount; ++cause) interlock_.causeGone(static_cast<FaultCause>(cause));
-    if (auto reset = interlock_.reset(); !reset) return reset;
+    if (auto reset = interlock_.reset(seen); !reset) return reset;
     // After a run that lost its device, the interlock is disconnected.
     return interlock_.state() == InterlockState::Disconnected ? interlock_.connect() : Result<void>{};
 }

@@ -120,8 +120,11 @@ public:
     /// the disk. False if nothing is recorded.
     [[nodiscard]] bool markMoment(Instant at, std::string word);
     /// Leaves Faulted. Searches again, by identity, for a device that was unplugged, which may take two seconds.
-    /// Errors: NotArmed while the cause of the fault persists.
-    [[nodiscard]] Result<void> resetFault();
+    /// `known`: Telemetry::causesCame as the operator saw it; without it, all causes until this call are known.
+    /// Errors: NotArmed while the cause of the fault persists, and if a cause came that is not known.
+    [[nodiscard]] Result<void> resetFault(std::optional<std::uint64_t> known = {});
+    /// See Interlock::unitFault(). Any thread.
+    [[nodiscard]] std::optional<UnitFault> unitFault() const noexcept;
 
     /// True if `cause` is one of the causes of the present fault.
     [[nodiscard]] bool faultPersists(FaultCause cause) const noexcept;

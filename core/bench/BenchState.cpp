@@ -209,8 +209,21 @@ Result<void> Bench::State::letReportsBeJudged() {
     return fail(ErrorCode::NotArmed, "not reset: the control loop does not run");
 }
 
-Result<void> Bench::State::leaveFault() {
+Result<void> Bench::State::leaveFault(std::optional<std::uint64_t> known) {
     if (interlock.state() != InterlockState::Faulted) return {};
+    constexpr int kLooks = 3;
+    CausesCame seen = interlock.causesCame();
+    if (known) seen.news = *known;
+    for (int looks = 1;; ++looks) {
+        seen.all = interlock.causesCame().all;
+        if (const auto gone = lookIntoFault(); !gone) return gone;
+        // A cause that came again meanwhile may be newer than what the devices answered.
+        const auto left = interlock.reset(seen);
+        if (left || looks == kLooks || interlock.causesCame().news != seen.news) return left;
+    }
+}
+
+Result<void> Bench::State::lookIntoFault() {
     if (interlock.causePersists(FaultCause::Internal)) {
         return fail(ErrorCode::NotArmed, "a fault of the program itself is not reset: {}. Restart the program",
                     interlock.reason().view());
@@ -226,9 +239,7 @@ Result<void> Bench::State::leaveFault() {
         constexpr Instant kSensorTimeout = std::chrono::seconds(3);
         if (const auto well = ask(time, *sensor, Role::Sensor, kSensorTimeout, "fingertip sensor"); !well) return well;
     }
-    if (const auto judged = letReportsBeJudged(); !judged) return judged;
-    for (int cause = 0; cause < kFaultCauseCount; ++cause) interlock.causeGone(static_cast<FaultCause>(cause));
-    return interlock.reset();
+    return letReportsBeJudged();
 }
 
 Result<void> Bench::State::refusal() {

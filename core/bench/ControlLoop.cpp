@@ -150,8 +150,11 @@ void ControlLoop::takeCommands(Instant now) noexcept {
 
 void ControlLoop::noteState(Instant now) noexcept {
     const auto state = parts_.interlock.state();
-    if (state == InterlockState::Faulted)  // a later cause may be graver
+    if (state != InterlockState::Disarmed && state != InterlockState::Disconnected) load_.leftAt = now + kPeriod;
+    if (state == InterlockState::Faulted) {                      // a later cause may be graver
+        shown_.causesCame = parts_.interlock.causesCame().news;  // read first: `fault` covers all that this counts
         if (const auto cause = parts_.interlock.cause()) shown_.fault = cause;
+    }
     if (state == seenState_) return;
     const auto before = std::exchange(seenState_, state);
     const bool wasConnected = before != InterlockState::Disconnected;
@@ -259,7 +262,7 @@ void ControlLoop::watchMassager(Instant now) noexcept {
     for (std::size_t s = 0; s < streams.size(); ++s) {
         if (streams[s].kind == StreamKind::Acceleration) rests_.feed(finger->blocks()[s], streams[s].channels);
     }
-    if (!(rests_.goesOnAt() > 0) || parts_.interlock.state() == InterlockState::Faulted) return;
+    if (!(rests_.goesOnAt() > 0) || parts_.interlock.causePersists(FaultCause::StuckOn)) return;
     std::array<char, 120> why{};
     fmt::format_to_n(why.data(), why.size() - 1,
                      "the massager goes on after its bursts: the accelerometer feels {:.3g} m/s2 r.m.s. at rest",

@@ -34,7 +34,6 @@ constexpr Word<FaultCause> kCauses[] = {{"device lost", FaultCause::DeviceLost},
                                         {"stuck on", FaultCause::StuckOn}};
 static_assert(std::size(kCauses) == kFaultCauseCount);
 
-constexpr std::uint32_t bitOf(FaultCause cause) noexcept { return 1U << static_cast<unsigned>(cause); }
 constexpr std::uint32_t kAllCauses = (1U << kFaultCauseCount) - 1;
 
 /// The causes after which something must be checked before the output is armed, the gravest first. None may hide
@@ -44,9 +43,7 @@ constexpr std::array kGraveCauses{FaultCause::StuckOn, FaultCause::LimitBroken, 
 
 /// Returns the gravest of the causes, and of lesser ones the first in the order of FaultCause. `causes` is not 0.
 FaultCause gravestOf(std::uint32_t causes) noexcept {
-    for (const auto cause : kGraveCauses)
-        if ((causes & bitOf(cause)) != 0) return cause;
-    return static_cast<FaultCause>(std::countr_zero(causes));
+    return graveCause(causes).value_or(static_cast<FaultCause>(std::countr_zero(causes)));
 }
 
 // --- what is refused ------------------------------------------------------------------------------------------------
@@ -161,7 +158,27 @@ constexpr Rule<Reset> kResetRules[] = {
                      r.reason);
      }},
 };
+
+struct Leaving {
+    CausesCame came, seen;
+    FaultCause newest;
+};
+
+constexpr Rule<Leaving> kLeaveRules[] = {
+    {ResetSeen, [](auto& l) { return l.came != l.seen; },
+     [](auto& l) {
+         return fail(ErrorCode::NotArmed,
+                     "not reset: another cause of the fault came meanwhile, {}. Look into it, then reset again",
+                     nameOf(l.newest));
+     }},
+};
 }  // namespace
+
+std::optional<FaultCause> graveCause(std::uint32_t causes) noexcept {
+    for (const auto cause : kGraveCauses)
+        if ((causes & bitOf(cause)) != 0) return cause;
+    return std::nullopt;
+}
 
 std::string_view nameOf(InterlockState state) noexcept { return wordFor(kStates, state); }
 std::string_view nameOf(FaultCause cause) noexcept { return wordFor(kCauses, cause); }
@@ -186,6 +203,14 @@ std::optional<FaultCause> Interlock::cause() const noexcept {
     if (state_.load(std::memory_order_relaxed) != InterlockState::Faulted) return std::nullopt;
     const std::uint32_t present = causes_ & kAllCauses;
     return present == 0 ? std::nullopt : std::optional(gravestOf(present));
+}
+
+std::optional<UnitFault> Interlock::unitFault() const noexcept {
+    const std::lock_guard lock(mutex_);
+    if (state_.load(std::memory_order_relaxed) != InterlockState::Faulted) return std::nullopt;
+    if (record_ != nullptr)
+        if (auto kept = record_->fault()) return kept;
+    return UnitFault{causes_ & kAllCauses, {}, reason_};
 }
 
 Result<void> Interlock::move(InterlockState from, InterlockState to, const char* what) {
@@ -284,6 +309,11 @@ ErrorCode Interlock::faultCode() const noexcept {
 void Interlock::fault(FaultCause cause, std::string_view reason, ErrorCode code) noexcept {
     const std::lock_guard lock(mutex_);
     ticket_ = 0;
+    ++came_.all;
+    if ((causes_ & bitOf(cause)) == 0 || graveCause(bitOf(cause))) {
+        ++came_.news;
+        lastNews_ = cause;
+    }
     causes_ |= bitOf(cause);
     if (cause == FaultCause::DeviceLost) deviceLost_ = true;
     if (state_.load(std::memory_order_relaxed) != InterlockState::Faulted) {
@@ -306,6 +336,22 @@ bool Interlock::causePersists(FaultCause cause) const noexcept {
 
 Result<void> Interlock::reset() {
     const std::lock_guard lock(mutex_);
+    return leaveFault();
+}
+
+Result<void> Interlock::reset(const CausesCame& seen) {
+    const std::lock_guard lock(mutex_);
+    if (auto kept = judge(kLeaveRules, Leaving{came_, seen, lastNews_}); !kept) return kept;
+    causes_ = 0;
+    return leaveFault();
+}
+
+CausesCame Interlock::causesCame() const noexcept {
+    const std::lock_guard lock(mutex_);
+    return came_;
+}
+
+Result<void> Interlock::leaveFault() {
     const Reset asked{state_.load(std::memory_order_relaxed), causes_ & kAllCauses, reason_.view()};
     if (auto kept = judge(kResetRules, asked); !kept) return kept;
     state_.store(deviceLost_ ? InterlockState::Disconnected : InterlockState::Disarmed, std::memory_order_release);

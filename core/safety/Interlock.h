@@ -11,6 +11,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -43,6 +44,24 @@ inline constexpr int kFaultCauseCount = 11;
 /// Returns Timeout for a cause that is only lateness (status missing, loop silent, stale sensor), else Device.
 [[nodiscard]] ErrorCode codeOf(FaultCause cause) noexcept;
 
+/// The fault in which a unit is or was left.
+struct UnitFault {
+    std::uint32_t causes = 0;  ///< one bit for each FaultCause
+    std::chrono::sys_seconds at{};
+    FixedText<159> reason;  ///< of the first cause
+};
+/// Returns the gravest of the causes after which the output must be checked before it is armed: a device stuck on, a
+/// broken limit, net charge, an internal error, in this order. Nothing if `causes` has none of them.
+[[nodiscard]] std::optional<FaultCause> graveCause(std::uint32_t causes) noexcept;
+[[nodiscard]] constexpr std::uint32_t bitOf(FaultCause cause) noexcept { return 1U << static_cast<unsigned>(cause); }
+
+/// How many causes have come since the interlock was made.
+struct CausesCame {
+    std::uint64_t all = 0;
+    std::uint64_t news = 0;  ///< all but those that only repeat a cause that is present and not grave
+    friend bool operator==(const CausesCame&, const CausesCame&) = default;
+};
+
 /// The evidence that arming needs. By default everything is false or empty: nothing is assumed.
 struct ArmingEvidence {
     bool limitsLoaded = false;
@@ -71,11 +90,15 @@ public:
     [[nodiscard]] InterlockState state() const noexcept { return state_.load(std::memory_order_acquire); }
     /// Returns why the output is faulted or was last disarmed; otherwise empty.
     [[nodiscard]] FixedText<159> reason() const noexcept;
-    /// Returns the first cause that is still present: StuckOn first, then in the order of FaultCause. Nothing unless
-    /// Faulted.
+    /// Returns the gravest cause that is still present: as graveCause(), then in the order of FaultCause. Nothing
+    /// unless Faulted.
     [[nodiscard]] std::optional<FaultCause> cause() const noexcept;
     /// Returns the error code for reason() while Faulted: Timeout if the first fault was lateness, else Device.
     [[nodiscard]] ErrorCode faultCode() const noexcept;
+
+    /// Returns the fault with all causes since it began, as the unit's record keeps it, or without a record as this
+    /// interlock has it (then without a time). Nothing unless Faulted.
+    [[nodiscard]] std::optional<UnitFault> unitFault() const noexcept;
 
     /// Keeps faults, until they are reset, in `record`, which outlives the interlock. If the record contains an earlier
     /// fault of the unit, the state becomes Faulted. Call once, after connect().
@@ -110,6 +133,10 @@ public:
     [[nodiscard]] bool causePersists(FaultCause cause) const noexcept;
     /// Faulted → Disarmed (Disconnected if the device was lost). Errors: NotArmed naming a cause that persists.
     [[nodiscard]] Result<void> reset();
+    /// Notes that all causes of the fault were checked again and are gone, and resets. Refused if a cause has come that
+    /// `seen` does not count: `all` as of before the check, `news` as the operator knew them. Errors: NotArmed.
+    [[nodiscard]] Result<void> reset(const CausesCame& seen);
+    [[nodiscard]] CausesCame causesCame() const noexcept;
 
     /// True if trains may be delivered: in Delivering.
     [[nodiscard]] bool mayDeliver() const noexcept { return state() == InterlockState::Delivering; }
@@ -118,11 +145,14 @@ public:
 
 private:
     [[nodiscard]] Result<void> move(InterlockState from, InterlockState to, const char* what);
-    mutable std::mutex mutex_;  // guards everything below against concurrent changes
+    [[nodiscard]] Result<void> leaveFault();  // under the lock
+    mutable std::mutex mutex_;                // guards everything below against concurrent changes
     std::atomic<InterlockState> state_{InterlockState::Disconnected};
     FixedText<159> reason_;
     ErrorCode faultCode_ = ErrorCode::Device;
     std::uint32_t causes_ = 0;  // one bit for each FaultCause still present
+    CausesCame came_;
+    FaultCause lastNews_ = FaultCause::DeviceFault;
     bool deviceLost_ = false;
     std::uint64_t ticket_ = 0;  // ticket of the pending request; 0 = none
     std::uint64_t lastTicket_ = 0;

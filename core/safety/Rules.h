@@ -128,6 +128,7 @@ enum Check : int {
     ArmImpedanceAge,
     ResetState,
     ResetCause,
+    ResetSeen,
     // Train check
     TrainNoStatus,
     TrainGarbage,

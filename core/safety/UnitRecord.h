@@ -51,12 +51,6 @@ struct ResidualVoltage {
 /// Sorted by the resting state of the source that left the voltage, in the order of GapState.
 using ResidualVoltages = std::array<ResidualVoltage, 2>;
 
-struct UnitFault {
-    std::uint32_t causes = 0;  ///< one bit for each FaultCause
-    std::chrono::sys_seconds at{};
-    FixedText<159> reason;
-};
-
 class UnitRecord {
 public:
     /// How many trains the record holds: as many as the meter.

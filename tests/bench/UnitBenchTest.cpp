@@ -34,6 +34,38 @@ private:
     DeviceIdentity unit_{"fake:", Role::Stimulator, "A unit", "F7", "1", false};
 };
 
+/// An oscilloscope that hands out one record of 60 V when it was asked as often as the test says.
+struct OneRecord final : Oscilloscope {
+    [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return who; }
+    [[nodiscard]] const ScopeTraits& traits() const noexcept override { return what; }
+    [[nodiscard]] Result<void> configure(const ScopeSettings&) override { return {}; }
+    [[nodiscard]] Result<void> arm() override { return {}; }
+    [[nodiscard]] Result<std::optional<Capture>> poll() override {
+        if (left < 0 || left-- > 0) return std::nullopt;
+        constexpr int kPart = 200;  // samples in each phase, and before and after
+        constexpr std::array<float, 5> kLevels{0, 60, 0, -60, 0};
+        Capture capture;
+        capture.rate_hz = 1e6;
+        capture.start_s = toSeconds(taken);
+        capture.trigger_s = capture.start_s + kPart / capture.rate_hz;
+        capture.stampTolerance_s = 0;
+        CaptureChannel voltage{"voltage", "V", {}, -100, 100, 0.05};
+        for (const float level : kLevels) voltage.samples.insert(voltage.samples.end(), kPart, level);
+        auto current = voltage;
+        current.name = "current";
+        current.unit = "A";
+        for (auto& sample : current.samples) sample /= 1000;
+        capture.channels = {voltage, current};
+        return capture;
+    }
+    void disarm() noexcept override {}
+
+    DeviceIdentity who{"fake:", Role::Oscilloscope, "A scope", "S1", "1", true};
+    ScopeTraits what{Hertz(1e6), 10000, 12, Hertz(1e6)};
+    Instant taken{0};
+    int left = -1;  ///< how often it is asked before; below 0: no record
+};
+
 /// The computer's time, which follows the bench's clock.
 struct ComputerTime final : SystemTime {
     explicit ComputerTime(const Clock& clock) : clock_(clock) {}
@@ -52,6 +84,9 @@ protected:
         unit_ = &unit->fake;
         BenchConfig config;
         config.devices.stimulator = std::move(unit);
+        auto scope = std::make_unique<OneRecord>();
+        scope_ = scope.get();
+        config.devices.oscilloscope = std::move(scope);
         config.clock = clock_;
         config.limits = limitSets();
         config.units = {folder_.path(), claims_.path()};
@@ -69,6 +104,7 @@ protected:
     std::shared_ptr<VirtualClock> clock_ = std::make_shared<VirtualClock>();
     ComputerTime time_{*clock_};
     FakeStimulator* unit_ = nullptr;
+    OneRecord* scope_ = nullptr;
     std::unique_ptr<Bench> bench_;
 };
 
@@ -94,6 +130,37 @@ TEST_F(UnitBench, OpensFaultedUntilTheFaultThatWasLeftIsReset) {
 
     open();
     EXPECT_EQ(bench_->telemetry().state, InterlockState::Disarmed) << "a fault that was reset is over";
+}
+
+TEST_F(UnitBench, NoBrokenLimitIsLostInOrBesideALesserFault) {
+    RecordProperty("hazard", "H1");
+    int refused = 0, again = 0;
+    for (int steps = 0; steps < 12; ++steps) {
+        open();
+        ASSERT_TRUE(arm());
+        ASSERT_TRUE(bench_->drive(DriveSource::Manual, 1, 1));
+        ASSERT_TRUE(bench_->wait(Seconds(1)));
+        unit_->electrode = ElectrodeState::Open;
+        ASSERT_FALSE(bench_->wait(Seconds(1)));
+        unit_->electrode = ElectrodeState::Ok;
+        ASSERT_TRUE(bench_->requestCaptures(1, {}));
+        bench_->idle(Seconds(0.05));
+        const auto known = bench_->telemetry();
+        ASSERT_EQ(known.fault, FaultCause::OpenElectrode);
+        scope_->taken = clock_->now();
+        scope_->left = steps;
+        for (int k = 0; k < steps / 4; ++k) bench_->idle(Seconds(0.005));  // it may come before the reset too
+        const bool left = bench_->resetFault(known.causesCame).has_value();
+        bench_->idle(Seconds(0.1));
+        ++(left ? again : refused);
+        const auto unit = bench_->unitFault();
+        ASSERT_TRUE(unit) << steps;
+        EXPECT_EQ(graveCause(unit->causes), FaultCause::LimitBroken) << steps;
+        EXPECT_EQ(bench_->telemetry().fault, FaultCause::LimitBroken) << steps;
+        EXPECT_TRUE(bench_->resetFault()) << "once it was seen";
+    }
+    EXPECT_GT(refused, 0) << "while the fault was left";
+    EXPECT_GT(again, 1) << "after the reset";
 }
 
 TEST_F(UnitBench, ArmingWaitsUntilAUnitWhosePastIsNotKnownHasRested) {

@@ -134,6 +134,15 @@ void addInterlockCases(std::vector<GateCase>& cases) {
         lock.causeGone(FaultCause::NetCharge);
         return refused && lock.reset().has_value();
     });
+    add(ResetSeen, "resetting when a cause has come that nobody saw", [] {
+        Interlock lock;
+        if (!lock.connect()) return false;
+        lock.fault(FaultCause::OpenElectrode, "a test");
+        const auto seen = lock.causesCame();
+        lock.fault(FaultCause::LimitBroken, "a test");
+        const bool refused = notArmed(lock.reset(seen), "came meanwhile, limit broken");
+        return refused && lock.reset(lock.causesCame()).has_value();
+    });
 
     add(TrainNoStatus, "no status 50 ms after a train", [] {
         return judgeTrain(OutputMode::BenchLoad, {}, 1s, 1s + 50ms).finding == TrainFinding::Pending &&

@@ -178,6 +178,58 @@ TEST(Interlock, NoLesserCauseHidesAGraverOne) {
     }
 }
 
+TEST(Interlock, NoCauseThatComesWhileAFaultIsLeftIsLost) {
+    RecordProperty("hazard", "H2");
+    for (int before = 0; before < kFaultCauseCount; ++before) {
+        for (int after = 0; after < kFaultCauseCount; ++after) {
+            const auto first = FaultCause(before), then = FaultCause(after);
+            Interlock lock;
+            bringTo(lock, State::Delivering);
+            lock.fault(first, "first");
+            auto seen = lock.causesCame();
+            lock.fault(then, "then");
+            EXPECT_THAT(lock.reset(seen), refusedSaying(std::string(nameOf(then)))) << nameOf(first);
+            seen.all = lock.causesCame().all;  // looked into once more
+            const bool known = before == after && !graveCause(bitOf(then));
+            EXPECT_EQ(lock.reset(seen).has_value(), known) << nameOf(first) << ", " << nameOf(then);
+            EXPECT_EQ(lock.state() == State::Faulted, !known);
+            EXPECT_TRUE(known || lock.causePersists(then));
+        }
+    }
+}
+
+TEST(Interlock, NoCauseOfAnotherThreadIsLostWhileAFaultIsLeft) {
+    RecordProperty("hazard", "H2");
+    Interlock lock;
+    ASSERT_TRUE(lock.connect());
+    constexpr int kEach = 5000;
+    const auto come = [&lock](FaultCause cause) {
+        for (int k = 0; k < kEach; ++k) {
+            lock.fault(cause, "why");
+            if (k % 7 == 0) std::this_thread::yield();
+        }
+    };
+    std::thread limits(come, FaultCause::LimitBroken), stuck(come, FaultCause::StuckOn);
+    std::uint64_t left = 0;
+    int resets = 0, refusals = 0;
+    const auto leave = [&] {
+        const auto seen = lock.causesCame();
+        if (lock.state() != State::Faulted) return;
+        std::this_thread::yield();
+        const bool reset = lock.reset(seen).has_value();
+        ++(reset ? resets : refusals);
+        if (reset) left = seen.news;
+    };
+    while (lock.causesCame().all < 2 * kEach) leave();
+    limits.join();
+    stuck.join();
+    EXPECT_EQ(lock.causesCame().news, 2U * kEach) << "a grave cause that comes again counts again";
+    EXPECT_EQ(lock.state() == State::Faulted, left < 2U * kEach) << resets << " resets, " << refusals << " refusals";
+    leave();
+    EXPECT_EQ(lock.state(), State::Disarmed);
+    EXPECT_EQ(left, 2U * kEach);
+}
+
 TEST(Interlock, ALostDeviceComesBackDisconnected) {
     Interlock lock;
     bringTo(lock, State::Delivering);

@@ -105,8 +105,8 @@ void BenchController::checkImpedance(const ArmRequest& request, StopMark asked) 
 
 void BenchController::disarm() { stop("operator (Disarm)"); }
 
-void BenchController::resetFault() {
-    order([](Bench& bench) { return bench.resetFault(); });
+void BenchController::resetFault(std::optional<std::uint64_t> known) {
+    order([known](Bench& bench) { return bench.resetFault(known); });
 }
 
 void BenchController::drive(DriveSource source, double roughness, double pressure) {

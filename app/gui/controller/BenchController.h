@@ -134,7 +134,8 @@ public:
     /// Marks the time `at` of the session being recorded with a word, bypassing every queue and without waiting for the
     /// disk; touches no output. Returns false if nothing is recorded.
     [[nodiscard]] bool markMoment(Instant at, const QString& word);
-    void resetFault();
+    /// `known`: as Bench::resetFault().
+    void resetFault(std::optional<std::uint64_t> known = {});
     void drive(DriveSource source, double roughness = 0, double pressure = 0);
     /// Returns the drive last ordered here; telemetry says whether the bench still follows that order.
     [[nodiscard]] const DriveCommand& lastDrive() const noexcept { return lastDrive_; }

@@ -10,40 +10,34 @@ namespace tacto::gui {
 
 namespace {
 
-struct AfterFault {
-    QString next;
-    bool mayArm = false;  ///< false: something must be checked before anything is armed
-};
-
-AfterFault afterFault(std::optional<FaultCause> cause) {
-    if (!cause) return {FaultBanner::tr("Fix the cause, reset the fault, then arm again."), false};
+QString nextAfter(std::optional<FaultCause> cause) {
+    if (!cause) return FaultBanner::tr("Fix the cause, reset the fault, then arm again.");
     switch (*cause) {
         case FaultCause::DeviceLost:
-            return {FaultBanner::tr("Plug it in again and wait until it is listed, then reset."), true};
+            return FaultBanner::tr("Plug it in again and wait until it is listed, then reset.");
         case FaultCause::DeviceFault:
-            return {FaultBanner::tr("Check the device and its cable, then reset."), true};
+            return FaultBanner::tr("Check the device and its cable, then reset.");
         case FaultCause::OpenElectrode:
-            return {FaultBanner::tr("Check the electrode and its lead, then reset."), true};
+            return FaultBanner::tr("Check the electrode and its lead, then reset.");
         case FaultCause::ShortElectrode:
-            return {FaultBanner::tr("Look for leads or electrodes that touch, then reset."), true};
+            return FaultBanner::tr("Look for leads or electrodes that touch, then reset.");
         case FaultCause::NetCharge:
-            return {FaultBanner::tr("Disconnect the electrodes and check the pulse on a resistor, then reset."), false};
+            return FaultBanner::tr("Disconnect the electrodes and check the pulse on a resistor, then reset.");
         case FaultCause::StatusMissing:
-            return {FaultBanner::tr("Check the cable to the stimulator, then reset."), true};
+            return FaultBanner::tr("Check the cable to the stimulator, then reset.");
         case FaultCause::LoopSilent:
-            return {FaultBanner::tr("Close the programs that keep this computer busy, then reset."), true};
+            return FaultBanner::tr("Close the programs that keep this computer busy, then reset.");
         case FaultCause::StaleSensor:
-            return {FaultBanner::tr("Check the fingertip sensor and its cable, then reset."), true};
+            return FaultBanner::tr("Check the fingertip sensor and its cable, then reset.");
         case FaultCause::LimitBroken:
-            return {FaultBanner::tr(
-                        "Run the safety check before you arm again: the stimulator delivered more than it may."),
-                    false};
+            return FaultBanner::tr(
+                "Run the safety check before you arm again: the stimulator delivered more than it may.");
         case FaultCause::StuckOn:
-            return {FaultBanner::tr("Switch it off at its own switch and take the load off, then reset."), false};
+            return FaultBanner::tr("Switch it off at its own switch and take the load off, then reset.");
         case FaultCause::Internal:
             break;
     }
-    return {FaultBanner::tr("Close the bench and open it again. Keep the session: it says what happened."), false};
+    return FaultBanner::tr("Close the bench and open it again. Keep the session: it says what happened.");
 }
 
 /// The gate's table holds the trains of its last 5 s.
@@ -82,8 +76,8 @@ void FaultBanner::refresh(const Telemetry& telemetry, QTime now) {
     const auto cause = reason.isEmpty() ? tr("The bench has faulted.") : reason;
     cause_->setText(faultedAt_.isValid() ? QString("%1 · %2").arg(faultedAt_.toString("HH:mm:ss"), cause) : cause);
     output_->setText(outputWords(telemetry));
-    const auto after = afterFault(telemetry.fault);
-    next_->setText(mayArm_ ? tr("%1 Arming is asked for next.").arg(after.next) : after.next);
+    const auto next = nextAfter(telemetry.fault);
+    next_->setText(mayArm_ ? tr("%1 Arming is asked for next.").arg(next) : next);
     if (toolTip() == text()) return;
     setToolTip(text());
     setAccessibleDescription(text());
@@ -106,7 +100,7 @@ void FaultBanner::note(const Telemetry& telemetry, QTime now) {
         const bool before = state_ == InterlockState::Disconnected;  // it was there when the bench was opened
         if (state_ != InterlockState::Faulted) faultedAt_ = before ? QTime() : now;
         const bool allowed = state_ == InterlockState::Faulted ? mayArm_ : !before;
-        mayArm_ = allowed && !another && afterFault(telemetry.fault).mayArm;
+        mayArm_ = allowed && !another && telemetry.fault && !graveCause(bitOf(*telemetry.fault));
         asJudged_ = (asJudged_ || state_ != InterlockState::Faulted) && saysNothingOfTrains(telemetry.fault);
     }
     at_ = telemetry.at;

@@ -236,6 +236,7 @@ void SafetyBar::followReset(const Telemetry& telemetry) {
                         !controller_.stoppedSince(*resetAsked_) && fault_->mayArmNext();
     if (left) resetAsked_.reset();
     if (mayArm) emit faultReset(drove_);
+    causesShown_ = telemetry.causesCame;
     if (telemetry.state == InterlockState::Faulted) return;
     const bool byHand = telemetry.driving == DriveSource::Manual;
     drove_ =
@@ -402,7 +403,7 @@ void SafetyBar::pressAction() {
 
 void SafetyBar::resetFault() {
     resetAsked_ = controller_.mark();
-    controller_.resetFault();
+    controller_.resetFault(causesShown_);
 }
 
 void SafetyBar::pressPause() {

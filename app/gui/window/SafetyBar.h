@@ -115,6 +115,7 @@ private:
     bool factsFit_ = true;
     int pulse_ = 0;  ///< frames left of the flash for the last train
     std::optional<StopMark> resetAsked_;
+    std::uint64_t causesShown_ = 0;
     DriveCommand drove_;  // as of the last refresh without a fault
     InterlockState state_ = InterlockState::Disconnected;
     InterlockState shown_ = InterlockState::Disconnected;

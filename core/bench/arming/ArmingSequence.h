@@ -33,7 +33,8 @@ struct ArmCommand {
 struct ArmedLoad {
     std::optional<Ohms> reference;  ///< |Z| when the output was armed; a profile that holds charge refers to it
     Instant armedAt{0};
-    Ohms high{0};  ///< upper end of the range that was declared when arming
+    Instant leftAt{0};  ///< until then the output was not disarmed, or not for longer than one step
+    Ohms high{0};       ///< upper end of the range that was declared when arming
     std::optional<Ohms> impedance;
     Instant impedanceAt{0};
 };

@@ -99,8 +99,17 @@ std::optional<LoopFault> DeliveryJudge::readBack(const TrainReport& report) {
                       kUnknownSpread.relative * report.measured, report.onset, report.isCheck});
 }
 
+/// In a fault only a broken limit is news, and only once: no lesser fault may hide it.
 std::optional<LoopFault> DeliveryJudge::amplitude(const SeenAmplitude& seen) {
-    if (seen.onset < load_.armedAt || interlock_.state() == InterlockState::Faulted) return std::nullopt;
+    if (seen.onset < load_.armedAt) return std::nullopt;
+    auto fault = deviation(seen);
+    if (fault && interlock_.state() == InterlockState::Faulted &&
+        (fault->cause != FaultCause::LimitBroken || interlock_.causePersists(FaultCause::LimitBroken)))
+        return std::nullopt;
+    return fault;
+}
+
+std::optional<LoopFault> DeliveryJudge::deviation(const SeenAmplitude& seen) {
     if (std::isnan(seen.expected)) return unasked(seen);
     const double off = seen.amplitude - seen.expected;
     const auto& stated = source_.accuracy.amplitude;
@@ -140,10 +149,12 @@ std::optional<LoopFault> DeliveryJudge::overLimit(const SeenAmplitude& seen) {
     return fault;
 }
 
-/// An output without a command is compared only with the limit on the commanded voltage, whatever its cause.
+/// An output without a command is compared only with the limit on the commanded voltage, whatever its cause. While
+/// disarmed, only one of the time before counts: what a free oscilloscope shows then is not the program's.
 std::optional<LoopFault> DeliveryJudge::unasked(const SeenAmplitude& seen) {
     const auto state = interlock_.state();
-    if (state == InterlockState::Disarmed || state == InterlockState::Disconnected) return std::nullopt;
+    const bool off = state == InterlockState::Disarmed || state == InterlockState::Disconnected;
+    if (off && seen.onset > load_.leftAt) return std::nullopt;
     const double value = voltsOf(seen.amplitude - seen.uncertainty) / (1 + kCommandTolerance);
     gate_.exposure(rows_);
     for (const auto& row : rows_) {

@@ -60,6 +60,7 @@ public:
 private:
     [[nodiscard]] std::optional<LoopFault> updateImpedance(Ohms measured, Instant at);
     [[nodiscard]] std::optional<LoopFault> reading(const TrainReport& report);
+    [[nodiscard]] std::optional<LoopFault> deviation(const SeenAmplitude& seen);
     [[nodiscard]] std::optional<LoopFault> overLimit(const SeenAmplitude& seen);
     [[nodiscard]] std::optional<LoopFault> unasked(const SeenAmplitude& seen);
     void keep(const SeenAmplitude& seen, bool beyond) noexcept;
