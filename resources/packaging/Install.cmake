@@ -10,6 +10,21 @@ set(version_libraries "Qt=${Qt6_VERSION}" "Boost=${Boost_VERSION_STRING}" "Eigen
 foreach(module FFTW SQLITE SODIUM USB HIDAPI SIGROK SNDFILE HDF5 DEFLATE ZIP ZSTD)
     list(APPEND version_libraries "${${module}_MODULE_NAME}=${${module}_VERSION}")
 endforeach()
+# version_in(NAME HEADER PATTERN): of a library that tells its version in a header only
+function(version_in name header pattern)
+    find_file(TACTOSCOPE_${name}_HEADER ${header} REQUIRED PATH_SUFFIXES qt6 HINTS ${Qt6Core_INCLUDE_DIRS})
+    file(STRINGS ${TACTOSCOPE_${name}_HEADER} line REGEX "${pattern}" LIMIT_COUNT 1)
+    if(NOT line MATCHES "${pattern}")
+        message(FATAL_ERROR "${TACTOSCOPE_${name}_HEADER} tells no version of ${name}; ${pattern} is expected")
+    endif()
+    set(version_libraries ${version_libraries} "${name}=${CMAKE_MATCH_1}" PARENT_SCOPE)
+endfunction()
+version_in(QCustomPlot qcustomplot.h "define QCUSTOMPLOT_VERSION_STR \"([0-9.]+)\"")
+version_in(QScintilla Qsci/qsciglobal.h "define QSCINTILLA_VERSION_STR +\"([0-9.]+)\"")
+# EDFlib tells it in the name of its file (libedf.so.1.23), and zxcvbn nowhere.
+file(REAL_PATH ${TACTOSCOPE_EDF} edf)
+string(REGEX REPLACE "^.*\\.so\\.|^.*/" "" edf "${edf}")
+list(APPEND version_libraries "EDFlib=${edf}" "zxcvbn=unversioned")
 # Asked of git at each build; only this small file and the programs' links follow a commit.
 set(version_file ${CMAKE_BINARY_DIR}/core/base/ProgramVersion.cpp)
 add_custom_target(ask_version

@@ -123,7 +123,15 @@ TEST(BuiltVersion, IsTheSameInWordsAndInJson) {
         EXPECT_THAT(words, testing::HasSubstr(name + " " + version.get<std::string>()));
         EXPECT_NE(version, "") << name;
     }
-    EXPECT_TRUE(json["libraries"].contains("Qt"));
+    for (const auto* name : {"Qt", "QCustomPlot", "QScintilla", "EDFlib", "zxcvbn"})
+        EXPECT_TRUE(json["libraries"].contains(name)) << name;
+    // What the package manager says of them.
+    for (const auto& [name, package] :
+         {std::pair("QCustomPlot", "libqcustomplot-dev"), std::pair("QScintilla", "libqscintilla2-qt6-dev"),
+          std::pair("EDFlib", "libedf-dev")}) {
+        const auto [packaged, code] = outputOf(std::string("dpkg-query -W -f '${Version}' ") + package);
+        if (code == 0) EXPECT_THAT(packaged, testing::StartsWith(json["libraries"][name].get<std::string>())) << name;
+    }
     for (const auto* wrong : {"--version --xml", "--version --json --json", "--version 2"})
         EXPECT_EQ(outputOf(cli + " " + wrong).second, 2) << wrong;
 }
