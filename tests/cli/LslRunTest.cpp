@@ -109,5 +109,50 @@ TEST(LslRun, PylslRecordsWhatTheSessionHolds) {
     EXPECT_THAT(value["stderr"].get<std::string>(), HasSubstr("notes came from \"Task"));
 }
 
+TEST(LslRun, WhatCannotBeBeginsNothing) {
+    const test::Desk desk;
+    const test::Words live{"run", "live", "--device", "sim:", "--out", desk.at("out")};
+    const auto refusedSaying = [&](const test::Words& more, int code, const char* says) {
+        auto words = live;
+        words.insert(words.end(), more.begin(), more.end());
+        const auto ran = desk.run(words);
+        EXPECT_EQ(ran.code, code) << ran.err;
+        EXPECT_THAT(ran.err, HasSubstr(says));
+        EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
+        EXPECT_FALSE(std::filesystem::exists(desk.at("out")));
+    };
+    ::setenv("TACTOSCOPE_LSL", "/nowhere/liblsl.so", 1);
+    refusedSaying({"--lsl", "--realtime"}, 3, "a file liblsl.so of liblsl 1.13 or newer is expected");
+    ::setenv("TACTOSCOPE_LSL", TACTO_HOSTILE_LSL, 1);
+    refusedSaying({"--lsl"}, 2, "real time (--realtime) is expected");
+    refusedSaying({"--realtime", "--lsl-markers", ""}, 2, "the name of a stream is expected");
+    refusedSaying({"--realtime", "--lsl-markers", "Tactoscope-markers"}, 2, "another program's is expected");
+    ::unsetenv("TACTOSCOPE_LSL");
+}
+
+TEST(LslRun, ARehearsalSendsItsMarkersAlone) {
+    RecordProperty("hazard", "H9");
+    const test::Desk desk;
+    ::setenv("TACTOSCOPE_LSL", TACTO_HOSTILE_LSL, 1);
+    auto running = desk.start({"run", "pilot-thresholds", "--device", "sim:", "--out", desk.at("study"), "--set",
+                               "participant=virtual:7", "--realtime", "--lsl", "--json"});
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(8);
+    EXPECT_TRUE(running.waitUntil([&] { return std::chrono::steady_clock::now() > until; }));
+    running.signal(SIGINT);
+    const auto ran = running.wait();
+    ::unsetenv("TACTOSCOPE_LSL");
+    const auto value = Json::parse(ran.out);
+    const auto& tally = value["lsl"];
+    EXPECT_EQ(tally["frames"], 0);
+    EXPECT_EQ(tally["trains"], 0);
+    const auto reader = SessionReader::open(value["session"].get<std::string>());
+    ASSERT_TRUE(reader) << reader.error().message;
+    const auto events = reader->events();
+    ASSERT_TRUE(events);
+    const auto marked = std::ranges::count_if(*events, [](const auto& event) { return hasMarker(event.name); });
+    EXPECT_GT(marked, 3);
+    EXPECT_EQ(tally["markers"], marked);
+}
+
 }  // namespace
 }  // namespace tacto

@@ -257,5 +257,58 @@ TEST(Session, CanBeReadWhileItIsWritten) {
     EXPECT_EQ(verifySession(path)->status, SessionStatus::Intact);
 }
 
+class Heard final : public SessionListener {
+public:
+    void onStream(int id, const SessionStream& stream) noexcept override { streams.emplace_back(id, stream.name); }
+    void onSamples(int stream, const SampleBlock& block) noexcept override {
+        samples.emplace_back(stream, block.values);
+    }
+    void onCommand(const SessionRow& command) noexcept override { rows.push_back(command); }
+    void onEvent(const SessionRow& event) noexcept override { rows.push_back(event); }
+    void onTrial(const SessionTrial& trial) noexcept override { trials.push_back(trial); }
+    std::vector<std::pair<int, std::string>> streams;
+    std::vector<std::pair<int, std::vector<double>>> samples;
+    std::vector<SessionRow> rows;
+    std::vector<SessionTrial> trials;
+};
+
+TEST(SessionListener, HearsWhatTheSessionTookAndNothingElse) {
+    const ScratchDir dir;
+    const auto path = dir.path() / "s.tacto";
+    VirtualClock clock;
+    auto writer = SessionWriter::create(path, test::someAbout(), clock).value();
+    ASSERT_TRUE(writer->event(Instant(1), "before", {}));
+    const auto heard = std::make_shared<Heard>();
+    writer->listen(heard);
+    const int stream = writer->addStream(SessionStream{"a", "frames", "", {"x", "y"}, 0}).value();
+    ASSERT_TRUE(writer->append(stream, {{1.0, 2.0}, {1, 2, 3, std::nan("")}}));
+    EXPECT_FALSE(writer->append(stream, {{3.0}, {1}}));
+    EXPECT_FALSE(writer->append(stream + 1, {{3.0}, {1, 2}}));
+    ASSERT_TRUE(writer->command(Instant(2), "train", {{"amplitude_v", 12.5}}));
+    ASSERT_TRUE(writer->event(Instant(3), "refused", {{"text", "too much"}}));
+    ASSERT_TRUE(writer->trial(Instant(4), "rough", {{"n", 1}}));
+    writer->listen(nullptr);
+    EXPECT_EQ(heard.use_count(), 1);
+    ASSERT_TRUE(writer->event(Instant(5), "after", {}));
+    ASSERT_TRUE(writer->close());
+
+    EXPECT_EQ(heard->streams, (std::vector<std::pair<int, std::string>>{{stream, "a"}}));
+    ASSERT_EQ(heard->samples.size(), 1U);
+    EXPECT_EQ(heard->samples[0].second.size(), 4U);
+    const auto reader = SessionReader::open(path).value();
+    const auto events = reader.events().value();
+    const auto commands = reader.commands().value();
+    ASSERT_EQ(heard->rows.size(), 2U);
+    for (const auto& [row, stored] : {std::pair{heard->rows[0], commands.at(0)}, {heard->rows[1], events.at(1)}}) {
+        EXPECT_EQ(row.seq, stored.seq);
+        EXPECT_EQ(row.at, stored.at);
+        EXPECT_EQ(row.name, stored.name);
+        EXPECT_EQ(row.body, stored.body);
+    }
+    ASSERT_EQ(heard->trials.size(), 1U);
+    EXPECT_EQ(heard->trials[0].number, 1);
+    EXPECT_EQ(heard->trials[0].condition, "rough");
+}
+
 }  // namespace
 }  // namespace tacto
