@@ -21,7 +21,8 @@ namespace tacto::test {
 
 class LoadSafetyRig {
 public:
-    explicit LoadSafetyRig(const std::vector<std::string>& uris, std::uint64_t seed = 1, bool recorded = false)
+    explicit LoadSafetyRig(const std::vector<std::string>& uris, std::uint64_t seed = 1, bool recorded = false,
+                           const KnownLines& calibration = {})
         : clock_(std::make_shared<VirtualClock>()), seed_(seed) {
         std::vector<std::unique_ptr<Driver>> drivers;
         drivers.push_back(makeSimulatedDriver());
@@ -34,6 +35,7 @@ public:
             registry.open(parsed, {Role::Stimulator, Role::Oscilloscope}, OpenContext{*clock_, seed, "1 kohm"}).value();
         config.clock = clock_;
         config.limits = limitSets();
+        config.calibration = calibration;
         if (recorded) {
             SessionAbout about;
             about.protocol = "load-safety";

@@ -4,6 +4,7 @@
 #include <future>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <random>
 #include <set>
 
 #include "core/base/Random.h"
@@ -49,6 +50,21 @@ TEST(LoadSafetyRun, PassesOnTheCleanTwinAndFindsEveryLoadsValue) {
     EXPECT_GE(limits, 10U) << "limits against loads, as results of this kind are reported";
     EXPECT_EQ(figures, 2U) << "single pulses, a burst";
     EXPECT_EQ(pulses, 4U) << "three single pulses and a burst";
+}
+
+/// What is predicted of a command is computed from what a calibrated stimulator is told, as the gate judges it.
+TEST(LoadSafetyRun, ACalibratedStimulatorIsDrivenToTheStrongestCommandAndPasses) {
+    RecordProperty("hazard", "H1");
+    std::mt19937 random(51);
+    for (const bool above : {true, false}) {
+        const double off = std::uniform_real_distribution(0.002, 0.03)(random), gain = above ? 1 + off : 1 - off;
+        LoadSafetyRig rig({fmt::format("sim:stimulator?gain={}", gain)}, 1, false,
+                          StimulatorCalibration{{.gain = gain, .offset = 0, .lowest = 10, .highest = 40}});
+        const auto outcome = rig.run({{"area", "4"}});
+        ASSERT_FALSE(outcome.error) << outcome.error->message;
+        EXPECT_EQ(outcome.verdict, ScriptVerdict::Pass) << gain << outcome.results["reasons"].dump(1);
+        EXPECT_NEAR(loadOf(outcome.results, "1 kohm")["peak_ma"].get<double>(), 40, 0.5) << gain;
+    }
 }
 
 TEST(LoadSafetyRun, FortyVoltsInto100OhmIsAskedForAndRefused) {

@@ -103,13 +103,19 @@ Result<PlannedLevel> TrainPlanner::planLevel(Milliamps level, Seconds interval, 
     return PlannedLevel{std::move(*approved), onset, expected};
 }
 
-/// Rounds to the nearest step, or toward zero if more than the profile's largest amplitude, `top`, would come out.
-Result<RoundedTrain> TrainPlanner::onGrid(PulseTrain programmed, double top) const {
-    if (!calibration_) return roundToDevice(programmed, gridOf(source_));
-    const double wanted = levelOf(programmed), step = source_.amplitudeStep;
-    if (calibration_->amplitude.delivered(toNearest(wanted, step)) > top)
-        programmed = trainAt(programmed, source_.drive, towardZero(wanted, step));
-    return roundToDevice(programmed, gridOf(source_), RoundedTo::Nearest);
+Result<RoundedTrain> programmedTrain(const EncodingProfile& profile, const SourceTraits& source,
+                                     const KnownLines& calibration, Volts amplitude, std::optional<Ohms> impedance) {
+    const auto train = trainFor(source.drive, profile, amplitude, impedance);
+    if (!train) return failure(train);
+    PulseTrain programmed = programmedFor(*train, calibration);
+    if (auto near = staysNear(programmed, *train); !near) return failure(near);
+    if (!calibration) return roundToDevice(programmed, gridOf(source));
+    // To the nearest step, or toward zero if more than the profile's largest amplitude would come out.
+    const double top = levelOf(*train) * (profile.amplitudeMax / amplitude);
+    const double level = levelOf(programmed), step = source.amplitudeStep;
+    if (calibration->amplitude.delivered(toNearest(level, step)) > top)
+        programmed = trainAt(programmed, source.drive, towardZero(level, step));
+    return roundToDevice(programmed, gridOf(source), RoundedTo::Nearest);
 }
 
 Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedance) {
@@ -118,14 +124,9 @@ Result<PlannedTrain> TrainPlanner::plan(Instant now, std::optional<Ohms> impedan
     const auto held =
         heldAmplitude(encoder().profile().hold, command.amplitude, armed_, impedance ? impedance : armed_);
     if (!held) return failure(held);
-    const auto train = trainFor(source_.drive, encoder().profile(), *held, impedance);
-    if (!train) return failure(train);
-    const PulseTrain programmed = programmedFor(*train, calibration_);
-    if (auto near = staysNear(programmed, *train); !near) return failure(near);
     const Seconds interval = programmedFor(command.interval, calibration_);
     if (auto near = staysNear("the interval", interval.count(), command.interval.count()); !near) return failure(near);
-    const double top = levelOf(*train) * (encoder().profile().amplitudeMax / *held);
-    const auto rounded = onGrid(programmed, top);
+    const auto rounded = programmedTrain(encoder().profile(), source_, calibration_, *held, impedance);
     if (!rounded) return failure(rounded);
     auto approved = gate_.approve(TrainRequest{rounded->train, interval, onset});
     if (!approved) return failure(approved);

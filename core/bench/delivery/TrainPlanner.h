@@ -75,7 +75,6 @@ public:
 
 private:
     [[nodiscard]] const Encoder& encoder() const noexcept { return series_.encoder(); }
-    [[nodiscard]] Result<RoundedTrain> onGrid(PulseTrain programmed, double top) const;
 
     const SourceTraits source_;
     const KnownLines calibration_;
@@ -83,6 +82,13 @@ private:
     TrainSeries series_;  // the wanted trains, within the limits on a step
     std::optional<Ohms> armed_;
 };
+
+/// Returns the train that is programmed so that `amplitude` comes out into `impedance`: corrected by the calibration,
+/// and rounded to the device's step. What is predicted of a command is computed from this train, which plan() delivers.
+/// Errors: as trainFor() and roundToDevice(); LimitExceeded if the calibration changes the command by more than 20 %.
+[[nodiscard]] Result<RoundedTrain> programmedTrain(const EncodingProfile& profile, const SourceTraits& source,
+                                                   const KnownLines& calibration, Volts amplitude,
+                                                   std::optional<Ohms> impedance);
 
 /// Returns the profile's train at a level that the device can set, with the amplitude unchanged, and phase width and
 /// gap corrected by the calibration and rounded to the device's step. A person's accepted levels were found with this

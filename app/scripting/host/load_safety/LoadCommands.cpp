@@ -6,6 +6,7 @@
 
 #include "core/analysis/statistics/StatisticsJson.h"
 #include "core/base/QuantityText.h"
+#include "core/bench/delivery/TrainPlanner.h"
 #include "core/encoding/Encoder.h"
 #include "core/safety/SourceTraits.h"
 #include "core/safety/TrainExposure.h"
@@ -83,8 +84,6 @@ Result<LoadCommand> commandFor(ScriptSession& session, const std::string& name, 
     if (!command) return failure(command);
 
     const Ohms ohms = impedanceOf(*load, encoding.train, source);
-    const auto wanted = trainFor(source.drive, encoding, command->amplitude, ohms);
-    if (!wanted) return failure(wanted);
     const GateSetup setup = bench.setupFor(*load);
     LoadCommand out{.load = name,
                     .roughness = R,
@@ -92,14 +91,16 @@ Result<LoadCommand> commandFor(ScriptSession& session, const std::string& name, 
                     .command_v = command->amplitude.value(),
                     .interval_s = command->interval.count(),
                     .checkForbidden = forbidsCheck(setup)};
-    const auto rounded = roundToDevice(*wanted, gridOf(source));
+    // As it will be programmed: a calibrated stimulator is told less, or more, than what comes out.
+    const auto rounded = programmedTrain(encoding, source, bench.calibration(), command->amplitude, ohms);
+    if (!rounded && rounded.error().code == ErrorCode::LimitExceeded) return failure(rounded);
     if (!rounded) {
         out.notApplicable =
             fmt::format("{} cannot be driven with {:.4g} V: {}", name, out.command_v, rounded.error().message);
         return out;
     }
     const auto& train = rounded->train;
-    out.forbidden = forbids(setup, train, command->interval);
+    out.forbidden = forbids(setup, train, programmedFor(command->interval, bench.calibration()));
     const double area = setup.electrodeArea ? setup.electrodeArea->value() : kNaN;
     const auto most = exposureOf(train, command->interval, *load, source, area);
     // The settled current of a skin equivalent is far below its charging spike, so it is captured in its own range.
