@@ -3,6 +3,7 @@
 
 #include "app/cli/Command.h"
 #include "core/calibration/CertificateStore.h"
+#include "core/exchange/dcc/DccCertificate.h"
 
 namespace tacto::cli {
 
@@ -22,6 +23,10 @@ void declareCertificate(QCommandLineParser& parser) {
                                                 figure.unit, figure.required ? "" : "; absent: not stated")),
              "U"});
     }
+    parser.addOption({"dcc",
+                      "Reads a digital calibration certificate (DCC 3, XML); again for the one of a shunt or a probe. "
+                      "The other options give what it does not state.",
+                      "FILE"});
     parser.addOption({"json", "Prints one JSON value."});
 }
 
@@ -58,12 +63,14 @@ int list(const CertificateStore& store, bool json) {
     return kDone;
 }
 
-/// Errors: InvalidArgument naming the option and what is accepted.
-Result<Certificate> certificateGiven(const QCommandLineParser& parser) {
+/// Returns what the options say; `all`: each that is required must be there. Errors: InvalidArgument naming the option
+/// and what is accepted.
+Result<Certificate> certificateGiven(const QCommandLineParser& parser, bool all) {
     Certificate out;
     for (const auto& text : kCertificateTexts)
         out.*text.member = parser.value(QString::fromStdString(std::string(text.key))).trimmed().toStdString();
     for (const auto& [name, day] : {std::pair{"date", &Certificate::date}, std::pair{"due", &Certificate::due}}) {
+        if (!all && !parser.isSet(name)) continue;
         const auto text = parser.value(name).toStdString();
         const auto date = parseDate(text);
         if (!date) {
@@ -72,7 +79,7 @@ Result<Certificate> certificateGiven(const QCommandLineParser& parser) {
         out.*day = *date;
     }
     for (const auto& figure : kCertificateFigures) {
-        if (!parser.isSet(figure.option) && !figure.required) continue;
+        if (!parser.isSet(figure.option) && !(all && figure.required)) continue;
         const auto u = numberOption(parser, figure.option);
         if (!u) return failure(u);
         out.*figure.member = *u;
@@ -80,18 +87,41 @@ Result<Certificate> certificateGiven(const QCommandLineParser& parser) {
     return out;
 }
 
+/// Returns what the files of --dcc say, with what the options add. Errors: as readDcc() and certificateFrom().
+Result<DccCertificate> certificateRead(const QCommandLineParser& parser, const Certificate& given) {
+    std::vector<DccFile> files;
+    for (const auto& path : parser.values("dcc")) {
+        auto file = readDcc(path.toStdString());
+        if (!file) return failure(file);
+        files.push_back(std::move(*file));
+    }
+    return certificateFrom(files, given);
+}
+
 int add(CertificateStore& store, const QCommandLineParser& parser) {
-    const auto certificate = certificateGiven(parser);
-    if (!certificate) return usage("certificate add: " + certificate.error().message);
+    const bool digital = parser.isSet("dcc");
+    const auto given = certificateGiven(parser, !digital);
+    if (!given) return usage("certificate add: " + given.error().message);
+    DccCertificate read{*given, {}};
+    if (digital) {
+        auto found = certificateRead(parser, *given);
+        if (!found) return couldNotRun(found.error());
+        read = std::move(*found);
+    }
+    const auto& certificate = read.certificate;
     const auto today = utcToday();
-    if (const auto added = store.add(*certificate, today); !added) return failWith(added.error());
+    if (const auto added = store.add(certificate, today); !added) return failWith(added.error());
     const auto index = store.all().size() - 1;
     const auto state = store.state(index, today);
-    if (parser.isSet("json"))
-        printJson(toJson(store, index, today));
-    else
-        say("{}: entered for {} {}; {}\n", certificateText(*certificate), certificate->instrument, certificate->serial,
-            figuresText(*certificate));
+    if (parser.isSet("json")) {
+        auto value = toJson(store, index, today);
+        if (digital) value["notes"] = read.notes;
+        printJson(value);
+    } else {
+        say("{}: entered for {} {}; {}\n", certificateText(certificate), certificate.instrument, certificate.serial,
+            figuresText(certificate));
+        for (const auto& note : read.notes) say("    {}\n", note);
+    }
     if (state != CertificateState::Counts) say(stderr, "It is {}: its figures are not used.\n", nameOf(state));
     return kDone;
 }
@@ -141,8 +171,8 @@ int runCertificate(const QCommandLineParser& parser) {
 
 const Command kCertificate{"certificate",
                            "{list [--json] | add --instrument NAME --serial S --number N --by LAB --date D --due D "
-                           "--gain-u PCT [--timebase-u-ppm X] [--shunt-u PCT] [--probe-u PCT] [--json] | withdraw "
-                           "NUMBER [--serial S]}",
+                           "--gain-u PCT [--timebase-u-ppm X] [--shunt-u PCT] [--probe-u PCT] [--json] | add --dcc "
+                           "FILE [--dcc FILE]... [--due D] [--json] | withdraw NUMBER [--serial S]}",
                            "The calibration certificates of oscilloscopes", declareCertificate, runCertificate};
 
 }  // namespace tacto::cli

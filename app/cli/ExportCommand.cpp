@@ -4,8 +4,10 @@
 #include "app/cli/Command.h"
 #include "app/cli/ProgressBar.h"
 #include "app/cli/StudyPassphrase.h"
+#include "app/run/RunFiles.h"
 #include "app/run/SignalStop.h"
 #include "core/base/ProgramVersion.h"
+#include "core/calibration/CalibrationStore.h"
 #include "core/exchange/Export.h"
 #include "core/session/SessionReader.h"
 #include "core/sharing/results/StudyResults.h"
@@ -25,7 +27,8 @@ void declareExport(QCommandLineParser& parser) {
     parser.addOptions(
         {{"format",
           QString::fromStdString("Of a session: " + formatNames() +
-                                 ". Of a study: bids, a dataset of behavioural files."),
+                                 "; dcc of a stimulator's calibration, as digital certificate. Of a study: bids, a "
+                                 "dataset of behavioural files."),
           "FORMAT"},
          {"out", "A new file or folder; of a study, a new or empty folder outside it.", "PATH"},
          {"json", "Prints one JSON value."},
@@ -84,7 +87,8 @@ int exportOne(const QCommandLineParser& parser, const std::string& session) {
     const auto name = parser.value("format").toStdString();
     const auto* format = exportFormat(name);
     if (format == nullptr)
-        return usage(fmt::format("export: --format is \"{}\"; {} are accepted", name, formatNames()));
+        return usage(
+            fmt::format("export: --format is \"{}\"; {} are accepted, and dcc of a calibration", name, formatNames()));
     if (parser.isSet("with")) return usage("export: --with is for a study; " + session + " is none");
     const std::filesystem::path out = parser.value("out").toStdString();
     if (const auto free = ExportTarget::begin(out, format->kind()); !free) return couldNotRun(free.error());
@@ -112,12 +116,35 @@ int exportOne(const QCommandLineParser& parser, const std::string& session) {
     return kVerdictFailed;
 }
 
+/// The session with the readings of the newest calibration that is stored for a stimulator. Errors: as
+/// CalibrationStore::open(); NotFound if none is stored, or the session is not where runs put theirs.
+Result<std::string> sessionOfCalibration(const std::string& serial) {
+    const auto store = CalibrationStore::open(calibrationFile());
+    if (!store) return failure(store);
+    const StoredCalibration* newest = nullptr;
+    for (const auto& each : store->all())
+        if (each.serial == serial && (newest == nullptr || each.made >= newest->made)) newest = &each;
+    if (newest == nullptr)
+        return fail(ErrorCode::NotFound, "there is no session {}, and no calibration of a stimulator {} is stored",
+                    serial, serial);
+    const auto path = userSessionsFolder() / newest->session;
+    if (std::error_code error; !std::filesystem::exists(path, error))
+        return fail(ErrorCode::NotFound,
+                    "the calibration of {} of {} is in the session {}, which is not in {}; its path is expected",
+                    serial, dateText(newest->made), newest->session, userSessionsFolder().string());
+    return path.string();
+}
+
 int runExport(const QCommandLineParser& parser) {
-    const auto folder = onlyArgument(parser, "SESSION or STUDY");
+    auto folder = onlyArgument(parser, "SESSION or STUDY");
     if (!folder) return usage(fmt::format("export: {}", folder.error().message));
     if (!parser.isSet("out")) return usage("export: --out is missing");
-    if (std::error_code error; !std::filesystem::exists(*folder, error))
-        return couldNotRun({ErrorCode::NotFound, fmt::format("there is no session and no study {}", *folder)});
+    if (std::error_code error; !std::filesystem::exists(*folder, error)) {
+        if (parser.value("format") != QLatin1String("dcc"))
+            return couldNotRun({ErrorCode::NotFound, fmt::format("there is no session and no study {}", *folder)});
+        folder = sessionOfCalibration(*folder);
+        if (!folder) return couldNotRun(folder.error());
+    }
     if (!Study::isThere(*folder)) return exportOne(parser, *folder);
     if (const auto format = parser.value("format").toStdString(); !format.empty() && format != "bids")
         return usage(fmt::format("export: --format is \"{}\"; of a study, bids is accepted", format));
@@ -140,10 +167,12 @@ int runExport(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kExport{"export",
-                      "{SESSION --format FORMAT --out PATH [--passphrase-file F] [--json] | "
-                      "STUDY --format bids --out DIR [--with LIST] [--passphrase-file F]}",
-                      "A session as files for other programs; a study's results without codes and dates, as BIDS",
-                      declareExport, runExport};
+const Command kExport{
+    "export",
+    "{SESSION --format FORMAT --out PATH [--passphrase-file F] [--json] | "
+    "{SESSION | SERIAL} --format dcc --out FILE [--json] | "
+    "STUDY --format bids --out DIR [--with LIST] [--passphrase-file F]}",
+    "A session as files for other programs, a calibration as digital certificate; a study's results as BIDS",
+    declareExport, runExport};
 
 }  // namespace tacto::cli

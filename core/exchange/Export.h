@@ -91,8 +91,9 @@ struct ExportFormat {
     }
 };
 
+/// The formats for every session.
 [[nodiscard]] std::span<const ExportFormat* const> exportFormats();
-/// Null if there is no such format.
+/// One of those, or "dcc", which is for the calibration of a stimulator alone. Null if there is no such format.
 [[nodiscard]] const ExportFormat* exportFormat(std::string_view name);
 
 /// What this session has and the format cannot hold.

@@ -4,6 +4,7 @@
 #include "core/exchange/Export.h"
 #include "core/exchange/bids/BidsExport.h"
 #include "core/exchange/csv/CsvExport.h"
+#include "core/exchange/dcc/DccExport.h"
 #include "core/exchange/edf/EdfExport.h"
 #include "core/exchange/hdf5/Hdf5Export.h"
 #include "core/exchange/xdf/XdfExport.h"
@@ -18,6 +19,7 @@ std::span<const ExportFormat* const> exportFormats() {
 }
 
 const ExportFormat* exportFormat(std::string_view name) {
+    if (name == dccExport().name) return &dccExport();
     const auto found = std::ranges::find(exportFormats(), name, &ExportFormat::name);
     return found == exportFormats().end() ? nullptr : *found;
 }

@@ -7,7 +7,7 @@
 find_package(pugixml REQUIRED)
 set(version_libraries "Qt=${Qt6_VERSION}" "Boost=${Boost_VERSION_STRING}" "Eigen=${Eigen3_VERSION}" "fmt=${fmt_VERSION}"
     "nlohmann-json=${nlohmann_json_VERSION}" "pugixml=${pugixml_VERSION}" "zlib=${ZLIB_VERSION_STRING}")
-foreach(module FFTW SQLITE SODIUM USB HIDAPI SIGROK SNDFILE HDF5 DEFLATE ZIP ZSTD)
+foreach(module FFTW SQLITE SODIUM USB HIDAPI SIGROK SNDFILE HDF5 DEFLATE XMLSEC ZIP ZSTD)
     list(APPEND version_libraries "${${module}_MODULE_NAME}=${${module}_VERSION}")
 endforeach()
 # version_in(NAME HEADER PATTERN): of a library that tells its version in a header only

@@ -1,11 +1,16 @@
 // A calibration certificate of the oscilloscope, from the command line to the uncertainties of a run.
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/Csv.h"
+#include "core/exchange/dcc/DccFile.h"
 #include "tests/cli/RunCli.h"
 #include "tests/cli/Shape.h"
+#include "tests/exchange/dcc/DccText.h"
 
 namespace tacto::test {
 namespace {
@@ -155,6 +160,65 @@ TEST_F(CertificateCli, OneThatIsExpiredOrOfTheFutureOrOfAnotherIsNotUsed) {
     EXPECT_THAT(add("SIM-7", "last", -355, -2).err, HasSubstr("It is expired"));
     EXPECT_THAT(unused("expired"), HasSubstr("certificate last (DAkkS Lab, " + daysFromToday(-355) + ", due " +
                                              daysFromToday(-2) + ") of the oscilloscope SIM-7 is expired"));
+}
+
+TEST_F(CertificateCli, IsReadFromADigitalOne) {
+    RecordProperty("hazard", "H9");
+    DccText dcc;
+    dcc.ended = daysFromToday(-10);
+    dcc.due = "";
+    dcc.results = dccResult("DC", dccReal("", "Gain error", "0.1", "\\percent", "0.5", "2"));
+    const auto file = desk.at("scope.xml");
+    const auto save = [&](const DccText& as) { std::ofstream(file) << as.text(); };
+    save(dcc);
+    expectRefused(desk.run({"certificate", "add", "--dcc", file}), 3, {"K-17", "day on which it is due"});
+    const auto added = desk.run({"certificate", "add", "--dcc", file, "--due", daysFromToday(300), "--json"});
+    ASSERT_EQ(added.code, 0) << added.err;
+    const Json one = Json::parse(added.out, nullptr, false);
+    expectKeys(one,
+               {"instrument", "serial", "number", "by", "date", "due", "gain_u_pct", "timebase_u_ppm", "shunt_u_pct",
+                "probe_u_pct", "state", "used", "entered", "withdrawn", "notes"},
+               "certificate add --dcc");
+    EXPECT_DOUBLE_EQ(one["gain_u_pct"].get<double>(), 0.6);
+    EXPECT_EQ(one["used"], true);
+    EXPECT_THAT(one["notes"].dump(), HasSubstr("certificate K-17 is unsigned"));
+    EXPECT_EQ(list()[0]["number"], "K-17");
+    dcc.number = "K-18";
+    dcc.results = dccResult("DC", dccReal("", "Gain error", "NaN", "\\percent", "0.5", "2"));
+    save(dcc);
+    expectRefused(desk.run({"certificate", "add", "--dcc", file, "--due", daysFromToday(300)}), 3, {"K-18", "NaN"});
+    expectRefused(desk.run({"certificate", "add", "--dcc", desk.at("none.xml")}), 3, {"none.xml"});
+    expectRefused(desk.run({"certificate", "add", "--dcc", file, "--due", "soon"}), 2, {"--due", "soon"});
+    EXPECT_EQ(list().size(), 1U);
+}
+
+TEST_F(CertificateCli, OfAStimulatorGoesOutAsADigitalOne) {
+    RecordProperty("hazard", "H9");
+    const auto ran = desk.run({"run", "stimulator-calibration", "--device", "sim:", "--seed", "3", "--set", "store=yes",
+                               "--report", "none", "--json"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    const auto session = Json::parse(ran.out, nullptr, false)["session"].get<std::string>();
+    const auto out = desk.at("a.xml");
+    const auto done = desk.run({"export", session, "--format", "dcc", "--out", out, "--json"});
+    ASSERT_EQ(done.code, 0) << done.err;
+    const Json said = Json::parse(done.out, nullptr, false);
+    EXPECT_EQ(said["format"], "dcc");
+    EXPECT_EQ(said["simulated"], true);
+    EXPECT_EQ(said["files"][0]["path"], "a.xml");
+    const auto file = readDcc(out);
+    ASSERT_TRUE(file) << file.error().message;
+    EXPECT_TRUE(file->simulated);
+    EXPECT_EQ(file->items[0].serial, "SIM-3");
+    expectRefused(desk.run({"certificate", "add", "--dcc", out}), 3, {"simulated bench"});
+    // By the stimulator whose calibration is stored.
+    ASSERT_EQ(desk.run({"export", "SIM-3", "--format", "dcc", "--out", desk.at("b.xml")}).code, 0);
+    EXPECT_EQ(readTextFile(desk.at("b.xml")).value_or("none"), readTextFile(out).value_or(""));
+    expectRefused(desk.run({"export", "SIM-4", "--format", "dcc", "--out", desk.at("c.xml")}), 3,
+                  {"no calibration of a stimulator SIM-4"});
+    std::filesystem::remove(session);
+    expectRefused(desk.run({"export", "SIM-3", "--format", "dcc", "--out", desk.at("c.xml")}), 3,
+                  {"SIM-3", std::filesystem::path(session).filename().string(), "its path is expected"});
+    EXPECT_FALSE(std::filesystem::exists(desk.at("c.xml")));
 }
 
 }  // namespace

@@ -6,11 +6,13 @@
 #include <array>
 
 #include "app/gui/theme/Building.h"
+#include "app/gui/theme/Dialogs.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "core/base/LocaleFreeText.h"
 #include "core/base/TypedNumber.h"
+#include "core/exchange/dcc/DccCertificate.h"
 namespace tacto::gui {
 
 namespace {
@@ -55,6 +57,14 @@ CertificateDialog::CertificateDialog(BenchController& controller, QWidget* paren
     enter_ = buttons->addButton(tr("&Enter certificate"), QDialogButtonBox::ActionRole);
     enter_->setObjectName("enterCertificate");
     enter_->setToolTip(tr("Saves the certificate. It is used when a bench is opened with this oscilloscope."));
+    auto* read = buttons->addButton(tr("&Read file…"), QDialogButtonBox::ActionRole);
+    read->setObjectName("readCertificate");
+    read->setAutoDefault(false);
+    read->setToolTip(tr("Fills the form from a digital calibration certificate (DCC, an XML file)."));
+    connect(read, &QPushButton::clicked, this, [this] {
+        askForFile(*this, {.title = tr("Read a digital certificate"), .filters = {tr("Digital certificates (*.xml)")}},
+                   [this](const QString& path) { readFile(path.toStdString()); });
+    });
     frame->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(enter_, &QPushButton::clicked, this, &CertificateDialog::enter);
@@ -154,6 +164,31 @@ void CertificateDialog::judge() {
     says_->setText(certificate->due < today    ? tr("It has expired: it would be kept but not used.")
                    : certificate->date > today ? tr("It is dated in the future: it is not used before its date.")
                                                : QString());
+}
+
+void CertificateDialog::readFile(const std::filesystem::path& path) {
+    auto file = readDcc(path);
+    if (!file) return says_->setText(sentence(file.error()));
+    Certificate given;
+    if (const auto due = parseDate(text("due"))) given.due = *due;
+    if (file->items.size() > 1) given.serial = text("serial");
+    for (const auto& figure : kCertificateFigures) given.*figure.member = typedNumber(text(figure.option));
+    const auto read = certificateFrom({&*file, 1}, given);
+    if (!read) return says_->setText(sentence(read.error()));
+    const auto& certificate = read->certificate;
+    for (const auto& [key, title, member] : kCertificateTexts)
+        names_->set(std::string(key), qtext(certificate.*member));
+    names_->set("date", qtext(dateText(certificate.date)));
+    names_->set("due", qtext(dateText(certificate.due)));
+    for (const auto& figure : kCertificateFigures) {
+        const auto& known = certificate.*figure.member;
+        figures_->set(figure.option, known ? qtext(fmt::format("{}", *known)) : QString());
+    }
+    judge();
+    QStringList says{says_->text()};
+    for (const auto& note : read->notes) says << sentence(qtext(note));
+    says.removeAll(QString());
+    says_->setText(says.join(' '));
 }
 
 void CertificateDialog::enter() {

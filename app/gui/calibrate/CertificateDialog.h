@@ -9,6 +9,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QTableWidget>
+#include <filesystem>
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/theme/ConfirmButton.h"
@@ -50,6 +51,8 @@ private:
     /// Returns the certificate entered in the form. Errors: InvalidArgument, one sentence.
     [[nodiscard]] Result<Certificate> written() const;
     void judge();
+    /// Fills the form from a digital certificate; a day or figure that it does not state is taken from the form.
+    void readFile(const std::filesystem::path& path);
     void enter();
     void withdraw();
     void nameWithdraw();

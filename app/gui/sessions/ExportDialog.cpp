@@ -41,11 +41,8 @@ ExportDialog::ExportDialog(std::filesystem::path session, QWidget* parent)
         tr("Export %1 of %2").arg(qtext(session_.filename().string()), qtext(session_.parent_path().string())));
     auto* layout = new QVBoxLayout(this);
     layout->addWidget(heading(tr("Export %1").arg(qtext(session_.stem().string())), this));
-    std::vector<std::pair<QString, QString>> formats;
-    for (const auto* each : exportFormats()) formats.emplace_back(qtext(each->name), qtext(each->title));
     form_ = new FieldForm(this, FieldForm::Labels::Beside);
-    form_->show({choiceField("format", tr("&Format"), formats, tr("What other programs read.")),
-                 ownField(tr("&Where"), buildPlace())});
+    addFormats(false);
     layout->addWidget(form_);
     holds_ = makeLabel({}, {.name = "exportHolds", .wraps = true, .plain = true, .selectable = true}, this);
     says_ =
@@ -63,6 +60,14 @@ ExportDialog::ExportDialog(std::filesystem::path session, QWidget* parent)
     growWithContent(*this);
     showFormat();
     look();
+}
+
+void ExportDialog::addFormats(bool ofCalibration) {
+    std::vector<std::pair<QString, QString>> formats;
+    for (const auto* each : exportFormats()) formats.emplace_back(qtext(each->name), qtext(each->title));
+    if (ofCalibration) formats.emplace_back("dcc", qtext(exportFormat("dcc")->title));
+    form_->show({choiceField("format", tr("&Format"), formats, tr("What other programs read.")),
+                 ownField(tr("&Where"), buildPlace())});
 }
 
 QWidget* ExportDialog::buildPlace() {
@@ -115,6 +120,7 @@ void ExportDialog::look() {
             if (!read) return says_->setText(tr("Cannot be exported: %1").arg(qtext(read.error().message)));
             source_ = *read;
             says_->clear();
+            if (source_->about().protocol == "stimulator-calibration") addFormats(true);
             showFormat();
         });
 }

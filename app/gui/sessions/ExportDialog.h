@@ -28,6 +28,7 @@ public:
     ExportDialog(std::filesystem::path session, QWidget* parent);
 
 private:
+    void addFormats(bool ofCalibration);
     [[nodiscard]] QWidget* buildPlace();
     [[nodiscard]] QWidget* buildButtons();
     [[nodiscard]] const ExportFormat& format() const;

@@ -1,6 +1,7 @@
 // Tests the dialog for oscilloscope certificates: entering, refusing in place, marking expired ones, withdrawing.
 #include <QAbstractItemView>
 #include <QCalendarWidget>
+#include <QFileDialog>
 #include <QHeaderView>
 #include <QLineEdit>
 #include <QMenu>
@@ -14,6 +15,7 @@
 #include "app/gui/calibrate/CertificateDialog.h"
 #include "app/gui/theme/Pages.h"
 #include "app/gui/theme/Theme.h"
+#include "tests/exchange/dcc/DccText.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
@@ -63,7 +65,7 @@ TEST_F(CertificateWindow, EntersWhatIsComplete) {
     write("probe-u", "1");
     click(enter());
     ASSERT_EQ(kept().all().size(), 1U);
-    const auto& one = kept().all()[0].certificate;
+    const auto one = kept().all()[0].certificate;  // a copy: kept() is gone after it
     EXPECT_EQ(one.number, "4711");
     EXPECT_EQ(one.gain_pct, 0.5);
     EXPECT_EQ(one.probe_pct, 1.0);
@@ -189,6 +191,40 @@ TEST_F(CertificateWindow, WithdrawsAfterASecondPress) {
     EXPECT_EQ(kept().state(0, daysFromNow(0)), CertificateState::Withdrawn);
     EXPECT_THAT(table().item(0, 0)->text().toStdString(), HasSubstr("withdrawn"));
     EXPECT_FALSE(withdraw->isEnabled());
+}
+
+TEST_F(CertificateWindow, FillsItselfFromADigitalOne) {
+    RecordProperty("hazard", "H9");
+    const ScratchDir folder;
+    const auto read = [&](const DccText& dcc) {
+        const auto file = folder.write("scope.xml", dcc.text());
+        click(*dialog->findChild<QPushButton*>("readCertificate"));
+        auto* chooser = dialog->findChild<QFileDialog*>("fileChooser");
+        ASSERT_NE(chooser, nullptr);
+        chooser->selectFile(QString::fromStdString(file.string()));
+        QMetaObject::invokeMethod(chooser, "accept");
+        delete chooser;
+    };
+    showDialog();
+    DccText dcc;
+    dcc.due = "";
+    dcc.ended = dateText(daysFromNow(-10));
+    dcc.results = dccResult("DC", dccReal("", "Gain error", "0.1", "\\percent", "0.5", "2"));
+    read(dcc);
+    EXPECT_THAT(says(), HasSubstr("no day on which it is due"));
+    EXPECT_FALSE(enter().isEnabled());
+    write("due", QString::fromStdString(dateText(daysFromNow(300))));
+    read(dcc);
+    EXPECT_THAT(says(), HasSubstr("ertificate K-17 is unsigned."));
+    EXPECT_THAT(says(), HasSubstr("readings are not corrected"));
+    ASSERT_TRUE(enter().isEnabled()) << says();
+    click(enter());
+    ASSERT_EQ(kept().all().size(), 1U);
+    const auto one = kept().all()[0].certificate;  // a copy: kept() is gone after it
+    EXPECT_EQ(one.instrument, "Rigol DS1054Z");
+    EXPECT_EQ(one.number, "K-17");
+    EXPECT_EQ(one.gain_pct, 0.6);
+    EXPECT_FALSE(one.timeBase_ppm || one.shunt_pct || one.probe_pct);
 }
 
 TEST_F(CertificateWindow, LooksRightInBothThemes) {
