@@ -105,6 +105,16 @@ void LoopJournal::measuredBeyond(Instant at, const MeasuredOutput& measured, con
           text.data());
 }
 
+namespace {
+/// "rms_current_5s of paper"; empty if no limit judged the train.
+FixedText<80> textOf(const NearestLimit& nearest) noexcept {
+    if (std::isnan(nearest.share)) return {};
+    std::array<char, 80> text{};
+    fmt::format_to_n(text.data(), text.size() - 1, "{} of {}", keyOf(nearest.quantity), nearest.set.view());
+    return std::string_view(text.data());
+}
+}  // namespace
+
 void LoopJournal::planned(const PlannedTrain& train, double roughness, double pressure) noexcept {
     command(train.onset, "train",
             {{"amplitude_v", train.command.amplitude.value()},
@@ -113,14 +123,18 @@ void LoopJournal::planned(const PlannedTrain& train, double roughness, double pr
              {"roughness", roughness},
              {"pressure", pressure},
              {"amplitude", siValue(train.rounding.train.amplitude)},
-             {"rounded_by", train.rounding.amplitude}});
+             {"rounded_by", train.rounding.amplitude},
+             {"limit_share", train.approved.nearest().share}},
+            textOf(train.approved.nearest()).view());
 }
 
 void LoopJournal::planned(const PlannedLevel& train) noexcept {
     command(train.onset, "train",
             {{"interval_s", train.approved.interval().count()},
              {"amplitude", siValue(train.approved.train().amplitude)},
-             {"expected_ma", train.expected}});
+             {"expected_ma", train.expected},
+             {"limit_share", train.approved.nearest().share}},
+            textOf(train.approved.nearest()).view());
 }
 
 void LoopJournal::planned(const PlannedBurst& burst, double roughness, double pressure) noexcept {

@@ -56,10 +56,10 @@ struct ActiveLimit {
 [[nodiscard]] std::vector<ActiveLimit> activeLimits(const GateSetup& setup);
 /// True if `value` keeps the row; a computed command (I·|Z|, or through a calibration) may exceed "≤" by rounding.
 [[nodiscard]] bool keepsLimit(const LimitRow& row, double value, bool commandComputed) noexcept;
-/// Checks every limit for the train alone, then with the trains before it. Errors: LimitExceeded naming the first
-/// broken limit: "RMS current over 5 s would be 14.1 mA in the worst case (11.3 mA into 100 ohm); paper allows less
-/// than 10 mA (...)".
-[[nodiscard]] Result<void> checkLimits(const State& state, const JudgedTrain& train, Instant now);
+/// Checks every limit for the train alone, then with the trains before it, and notes the nearest. Errors: LimitExceeded
+/// naming the first broken limit: "RMS current over 5 s would be 14.1 mA in the worst case (11.3 mA into 100 ohm);
+/// paper allows less than 10 mA (...)".
+[[nodiscard]] Result<void> checkLimits(const State& state, JudgedTrain& train, Instant now);
 
 /// Returns NaN without an area.
 [[nodiscard]] double areaOf(const GateSetup& setup) noexcept;

@@ -64,6 +64,7 @@ struct JudgedTrain {
     double stretch = 1;        // see DeliveryBounds::stretch()
     double carried_V = 0;      // the voltage that the train may find on the load
     TrainExposure overRange, at500;
+    NearestLimit nearest;  // of the limits that were checked so far
     /// The frequency for selecting bands: the lowest possible.
     [[nodiscard]] double hz() const noexcept { return 1 / intervals.most.count(); }
     /// True if the row belongs to a band in which the train may come out.

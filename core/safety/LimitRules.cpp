@@ -42,9 +42,10 @@ tl::unexpected<Error> refused(const TrainAtLimit& t, double value, const std::st
                 row.max, unitOf(row.quantity), originOf(t.state, t.limit));
 }
 
+bool holdsAlone(const TrainAtLimit& t) { return t.judged() && t.train.fallsUnder(t.limit.row); }
+
 bool breaksAlone(const TrainAtLimit& t) {
-    return t.judged() && t.train.fallsUnder(t.limit.row) &&
-           !keepsLimit(t.limit.row, t.valueAlone(), t.state.commandIsComputed());
+    return holdsAlone(t) && !keepsLimit(t.limit.row, t.valueAlone(), t.state.commandIsComputed());
 }
 
 tl::unexpected<Error> refusedAlone(const TrainAtLimit& t) {
@@ -63,14 +64,22 @@ tl::unexpected<Error> refusedAlone(const TrainAtLimit& t) {
     return refused(t, t.valueAlone(), aside);
 }
 
-bool breaksInWindow(const TrainAtLimit& t) {
+bool holdsInWindow(const TrainAtLimit& t) {
     // Trains of different rates share the window: every band that contains one of them applies.
-    const bool holds = t.train.fallsUnder(t.limit.row) || t.limit.row.holdsAt(t.window->lowestHz);
-    return t.judged() && holds && !keepsLimit(t.limit.row, t.valueInWindow(), false);
+    return t.judged() && (t.train.fallsUnder(t.limit.row) || t.limit.row.holdsAt(t.window->lowestHz));
+}
+
+bool breaksInWindow(const TrainAtLimit& t) {
+    return holdsInWindow(t) && !keepsLimit(t.limit.row, t.valueInWindow(), false);
 }
 
 tl::unexpected<Error> refusedInWindow(const TrainAtLimit& t) {
     return refused(t, t.valueInWindow(), fmt::format(" with the {} trains before it", t.window->trains));
+}
+
+void note(NearestLimit& nearest, const ActiveLimit& limit, double value) noexcept {
+    const double share = value / limit.row.max;
+    if (!(share <= nearest.share)) nearest = {share, limit.row.quantity, limit.set};
 }
 }  // namespace
 
@@ -99,11 +108,13 @@ std::vector<ActiveLimit> activeLimits(const GateSetup& setup) {
     return limits;
 }
 
-Result<void> checkLimits(const State& state, const JudgedTrain& train, Instant now) {
+Result<void> checkLimits(const State& state, JudgedTrain& train, Instant now) {
     for (const ActiveLimit& limit : state.limits) {
         const int id = limitCheck(limit.ceiling ? RequestCeiling : RequestLimit, limit.row.quantity);
         const Rule<TrainAtLimit> rule[] = {{id, breaksAlone, refusedAlone}};
-        if (auto kept = judge(rule, TrainAtLimit{state, train, limit}); !kept) return kept;
+        const TrainAtLimit at{state, train, limit};
+        if (auto kept = judge(rule, at); !kept) return kept;
+        if (holdsAlone(at)) note(train.nearest, limit, at.valueAlone());
     }
     auto second = state.meter.couldShare(Seconds(1), now, train.stretch);
     auto five = state.meter.couldShare(Seconds(5), now, train.stretch);
@@ -116,8 +127,9 @@ Result<void> checkLimits(const State& state, const JudgedTrain& train, Instant n
         if (window_s == 0) continue;
         const int id = limitCheck(limit.ceiling ? MeterCeiling : MeterLimit, limit.row.quantity);
         const Rule<TrainAtLimit> rule[] = {{id, breaksInWindow, refusedInWindow}};
-        if (auto kept = judge(rule, TrainAtLimit{state, train, limit, window_s == 1 ? &second : &five}); !kept)
-            return kept;
+        const TrainAtLimit at{state, train, limit, window_s == 1 ? &second : &five};
+        if (auto kept = judge(rule, at); !kept) return kept;
+        if (holdsInWindow(at)) note(train.nearest, limit, at.valueInWindow());
     }
     return {};
 }

@@ -126,6 +126,14 @@ struct LimitSet {
 /// and what is accepted. Never throws, whatever the text.
 [[nodiscard]] Result<LimitSet> parseLimitSet(std::string_view json, std::string_view name);
 
+/// The limit of a gate that a train came nearest to: the largest share that it takes of a limit that would refuse it.
+/// Trivially copyable.
+struct NearestLimit {
+    double share = kNaN;  ///< of the limit; NaN: no limit judged the train
+    Quantity quantity = Quantity::PeakVoltage;
+    FixedText<31> set;  ///< id of the limit set, "profile" for a ceiling
+};
+
 // One line of an exposure table: a quantity, its value, and the limit that applies to it.
 //
 // Never allocates and is trivially copyable: the control loop fills such rows during delivery.

@@ -274,7 +274,7 @@ Result<ApprovedTrain> SafetyGate::grant(const AskedTrain& asked, std::uint64_t e
     Booking booking{s, booked};
     fulfil(kBookings, booking);
     s.lastTrain = train;
-    return ApprovedTrain(train, interval, epoch, expires);
+    return ApprovedTrain(train, interval, epoch, expires, judged.nearest);
 }
 
 Result<ApprovedBurst> SafetyGate::approve(const VibrationBurst& burst) {

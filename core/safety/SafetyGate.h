@@ -41,15 +41,19 @@ public:
     [[nodiscard]] const PulseTrain& train() const noexcept { return train_; }
     [[nodiscard]] Seconds interval() const noexcept { return interval_; }
     [[nodiscard]] Instant expires() const noexcept { return expires_; }
+    /// The limit that it came nearest to when it was judged, with the trains before it.
+    [[nodiscard]] const NearestLimit& nearest() const noexcept { return nearest_; }
 
 private:
     friend class SafetyGate;
-    ApprovedTrain(const PulseTrain& train, Seconds interval, std::uint64_t epoch, Instant expires) noexcept
-        : train_(train), interval_(interval), epoch_(epoch), expires_(expires) {}
+    ApprovedTrain(const PulseTrain& train, Seconds interval, std::uint64_t epoch, Instant expires,
+                  const NearestLimit& nearest) noexcept
+        : train_(train), interval_(interval), epoch_(epoch), expires_(expires), nearest_(nearest) {}
     PulseTrain train_;
     Seconds interval_;
     std::uint64_t epoch_;
     Instant expires_;
+    NearestLimit nearest_;
 };
 
 /// One vibration of a massager: the mechanical counterpart of a pulse train.

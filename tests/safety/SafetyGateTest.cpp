@@ -13,7 +13,7 @@ namespace tacto::test {
 
 static_assert(!std::is_copy_constructible_v<ApprovedTrain>, "one approval, one delivery");
 static_assert(!std::is_default_constructible_v<ApprovedTrain>, "only the gate makes one");
-static_assert(!std::is_constructible_v<ApprovedTrain, PulseTrain, Seconds, std::uint64_t, Instant>,
+static_assert(!std::is_constructible_v<ApprovedTrain, PulseTrain, Seconds, std::uint64_t, Instant, NearestLimit>,
               "only the gate makes one");
 static_assert(!std::is_copy_constructible_v<ApprovedBurst> && !std::is_default_constructible_v<ApprovedBurst>);
 
@@ -45,6 +45,45 @@ TEST(SafetyGate, ApprovesThePapersRoughHighFrom500OhmUpAndRefusesItAt100) {
                   0),
               0U)
         << refused.error().message;
+}
+
+TEST(SafetyGate, SaysWhichLimitATrainCameNearestTo) {
+    RecordProperty("hazard", "H1");
+    for (const double ohm : {500.0, 1000.0, 10'000.0}) {
+        for (const double amplitude : {1.0, 10.0, 25.0, 40.0}) {
+            const auto setup = shippedSetup(ohm);
+            Rig rig(setup);
+            const auto approved = rig.ask(volts(amplitude), 0.5);
+            ASSERT_TRUE(approved) << approved.error().message;
+            // The table of reports judges the same train without any before it.
+            double most = 0;
+            for (const auto& row : exposureTable(setup, volts(amplitude), Seconds(0.5))) {
+                if (row.action == LimitAction::Refuse && row.evaluated && !std::isnan(row.limit))
+                    most = std::max(most, row.value / row.limit);
+            }
+            const auto& nearest = approved->nearest();
+            EXPECT_DOUBLE_EQ(nearest.share, most) << amplitude << " V into " << ohm;
+            EXPECT_LE(nearest.share, 1);
+            EXPECT_FALSE(nearest.set.empty());
+        }
+    }
+    // The trains before it count.
+    auto setup = benchSetup();
+    setup.limits = {limitsOf({rowFor(Quantity::RmsCurrent5s, 100)}, "window")};
+    Rig rig(setup);
+    const auto share = [&] {
+        const auto approved = rig.ask(volts(10));
+        EXPECT_TRUE(approved);
+        return approved ? approved->nearest().share : kNaN;
+    };
+    const double alone = share();
+    double later = 0;
+    for (int i = 0; i < 40; ++i) {
+        rig.wait(0.1);
+        later = share();
+    }
+    EXPECT_GT(later, 2 * alone);
+    EXPECT_EQ(rig.ask(volts(10))->nearest().set.view(), "window");
 }
 
 TEST(SafetyGate, ACalibrationDoesNotTakeItsOwnUncertaintyOut) {
