@@ -97,6 +97,8 @@ struct ExportTrain {
     double imbalance = kNaN;
     std::string drivenBy;      ///< "sensor", "manual", "presentation", "check"; empty if the session does not say
     double held_v = kNaN;      ///< `command_v` adapted to the load's impedance
+    std::string limit;         ///< that it came nearest to: "rms_current_5s of paper"; empty if not known
+    double limitShare = kNaN;  ///< of that limit
     double roundedBy = kNaN;   ///< share by which the device's step made the amplitude smaller; negative: larger
     std::string reason;        ///< why it was not delivered
     nlohmann::json details{};  ///< the session's row of the report; null if there is none

@@ -304,6 +304,7 @@ Result<void> TrainJoin::take(const SessionRow& command, const Visit& visit) {
         train.interval_s = numberOr(body, "interval_s");
         train.held_v = numberOr(body, "held_v");
         train.roundedBy = numberOr(body, "rounded_by");
+        if (train.limitShare = numberOr(body, "limit_share"); train.limitShare >= 0) train.limit = textOr(body, "text");
         train.drivenBy = std::isnan(train.command_v) ? "presentation" : drive_;
         train.simulated = simulated_;
         plans_.push_back({std::move(train), command.seq});

@@ -42,10 +42,12 @@ inline double drawnValue(std::mt19937_64& random) {
     }
 }
 
-/// Draws stamps: regular, jittering, slipping, with gaps, and now and then equal to the stamp before or earlier.
+/// Draws stamps: regular, jittering, with gaps, now and then equal to the stamp before, or by a clock that is a little
+/// slow or fast.
 inline std::vector<double> drawnStamps(std::mt19937_64& random, double rate_hz, std::size_t samples) {
     std::uniform_real_distribution<double> unit(0, 1);
-    const auto flaw = random() % 4;  // 0: none
+    const auto flaw = random() % 5;  // 0: none
+    const double slip = random() % 2 == 0 ? 0.0008 : -0.0008;
     std::vector<double> stamps;
     double t = unit(random);
     for (std::size_t i = 0; i < samples; ++i) {
@@ -54,6 +56,7 @@ inline std::vector<double> drawnStamps(std::mt19937_64& random, double rate_hz, 
         if (flaw == 1 && random() % 50 == 0) t += unit(random);               // a gap
         if (flaw == 2) t += (unit(random) - 0.5) * 0.9 / rate_hz;             // jitter
         if (flaw == 3 && random() % 200 == 0) t -= (random() % 2) / rate_hz;  // repeated
+        if (flaw == 4) t += slip / rate_hz;
     }
     return stamps;
 }
@@ -145,6 +148,7 @@ inline DrawnSession drawSession(const std::filesystem::path& folder, std::uint64
                                      {"interval_s", 0.5},
                                      {"is_check", 0.0},
                                      {"text", "unplugged"}}));
+        if (i == 3) event("estimate", {{"name", "detection"}, {"estimate", {{"value", 2.5}, {"low", 2}, {"high", 3}}}});
         if (i == 5) event("refused", {{"text", "38 V; at most 30 V are allowed"}});
         const nlohmann::json measured = {{"amplitude_v", drawnValue(random)},
                                          {"pulses", i},

@@ -85,6 +85,7 @@ TEST(BidsExport, HoldsWhatPandasReadsAndTheValidatorAccepts) {
     if (!python) GTEST_SKIP() << kNoPackages;
     const auto validator = fs::path(*python).parent_path() / "bids-validator-deno";
     std::set<std::string> held, left;
+    std::uint64_t gaps = 0, repeated = 0, dropped = 0;
     for (std::uint64_t seed = 1; seed <= trials<std::uint64_t>({.local = 4, .ci = 8, .campaign = 100}); ++seed) {
         const ScratchDir folder;
         const auto drawn = drawSession(folder.path(), seed);
@@ -92,7 +93,12 @@ TEST(BidsExport, HoldsWhatPandasReadsAndTheValidatorAccepts) {
         ASSERT_TRUE(done) << done.error().message;
         ASSERT_TRUE(exported(drawn.path, "hdf5", folder.path() / "out.h5"));
         std::ofstream(folder.path() / "report.json") << toJson(*done).dump();
-        for (const auto& stream : done->streams) held.insert(stream.name);
+        for (const auto& stream : done->streams) {
+            held.insert(stream.name);
+            gaps += stream.gaps;
+            repeated += stream.repeated;
+            dropped += stream.dropped;
+        }
         for (const auto& each : done->leftOut) left.insert(each.what);
         std::vector<fs::path> arguments{folder.path() / "out", folder.path(), folder.path() / "out.h5"};
         if (seed == 1) arguments.push_back(validator);
@@ -100,6 +106,7 @@ TEST(BidsExport, HoldsWhatPandasReadsAndTheValidatorAccepts) {
     }
     EXPECT_EQ(held.size(), 6U) << "each stream was there once";
     EXPECT_GT(left.size(), 2U) << "a stream without a grid was left out once";
+    EXPECT_TRUE(gaps > 0 && repeated > 0 && dropped > 0) << gaps << ' ' << repeated << ' ' << dropped;
 }
 
 TEST(CsvExport, OpensAsARecordingWithTheSamplesOfTheSession) {

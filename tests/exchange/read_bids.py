@@ -130,6 +130,12 @@ for row in out.to_dict("records"):
     train = known.loc[row["event_id"]]
     assert same(row["onset"], train["onset"]) and same(row["base_voltage_intensity"], train["told_v"])
     assert same(row["encoded_voltage"], train["command_v"]) and same(row["roughness"], train["roughness"])
+(measured,) = about["Thresholds"]
+assert measured["estimate"]["value"] == 2.5 and about["PersonalRange"] == "unknown"
+for row in out.to_dict("records"):
+    later = row["onset"] >= measured["time_s"]
+    assert same(row["threshold_reference_current"], 2.5 if later else math.nan)
+    assert (row["threshold_type"] == "sensation") == later
 assert {stimulus["StimID"] for stimulus in about["StimulusSet"]} >= set(out["stim_id"])
 assert about["Particulars"]["ElectrodeMaterial"] == "unknown"
 

@@ -1,6 +1,7 @@
 """recompute_trains.py EXPORT: computes every train of a BIDS export again, from its files alone and by the formulas of
 science.md section 4, and what was measured of trials from what was measured of their trains; only Python's own library.
 Prints how many trains it computed, how many of them the fingertip drove, and how many trials it compared."""
+import bisect
 import csv
 import gzip
 import json
@@ -46,9 +47,13 @@ def within(wanted, before, ratio):
     return min(max(wanted, before / ratio), before * ratio) if ratio > 1 and before > 0 else wanted
 
 
+def after(t):
+    return bisect.bisect(frames, t, key=lambda frame: frame[0])
+
+
 def pulled_off(since, until):
     """Whether the finger left between two trains, after which the output starts again and never above what is wanted."""
-    return any(since < t < until and (contact != 1 or math.isnan(R)) for t, contact, R, _ in frames)
+    return any(contact != 1 or math.isnan(R) for _, contact, R, _ in frames[after(since):after(until)])
 
 
 changes = [(-math.inf, about["EncodingProfile"])]
@@ -82,10 +87,12 @@ for train in trains:
     assert profile["hold"] == "voltage" and abs(value(train["held_voltage"]) - A) <= 1e-9 * A
     sent = value(train["base_voltage_intensity"])
     assert math.isnan(sent) or abs(sent - held) <= 1e-9 * held, train
+    # The gate let it pass.
+    assert 0 < value(train["nearest_limit_share"]) <= 1 + 1e-9 and " of " in train["nearest_limit"], train
     # Its cause is one of the frames, the newest that had these values.
     if train["driven_by"] == "sensor":
         t = value(train["frame_time"])
-        at = min(range(len(frames)), key=lambda k: abs(frames[k][0] - t))
+        at = after(t + 0.5 / grid["SamplingFrequency"]) - 1
         assert abs(frames[at][0] - t) <= grid["MaxTimeError"] + 1e-9 and t <= onset <= t + 0.15, train
         assert frames[at][2] == R and (frames[at][3] == P or math.isnan(P) and math.isnan(frames[at][3])), train
         felt += 1

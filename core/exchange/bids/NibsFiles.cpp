@@ -63,11 +63,16 @@ bool isSame(double a, double b) { return a == b || (std::isnan(a) && std::isnan(
 
 class NibsWriter {
 public:
-    NibsWriter(const ExportSource& source, const BidsFolder& folder) : source_(source), folder_(folder) {}
+    NibsWriter(const ExportSource& source, const BidsFolder& folder) : source_(source), folder_(folder) {
+        for (const auto& event : source.eventRows()) {
+            if (event.name == "estimate")
+                detections_.emplace_back(toSeconds(event.at), numberOr(valueOr(event.body, "estimate"), "value"));
+        }
+    }
 
     Result<void> write() {
         for (const auto step : {&NibsWriter::readTrains, &NibsWriter::readFrames, &NibsWriter::readCaptures,
-                                &NibsWriter::readResults, &NibsWriter::writeTable, &NibsWriter::writeSidecar}) {
+                                &NibsWriter::writeTable, &NibsWriter::writeSidecar}) {
             if (auto done = (this->*step)(); !done) return done;
         }
         return {};
@@ -236,19 +241,13 @@ private:
         return count > 0 ? sum / static_cast<double>(count) : kNaN;
     }
 
-    /// Keeps what the results say of thresholds.
-    Result<void> readResults() {
-        return source_.forEachMoment([&](const ExportRow& row) -> Result<void> {
-            if (row.kind != "verdict") return {};
-            const auto results = valueOr(row.details, "results");
-            for (const char* name : {"felt_ma", "too_strong_ma", "detection", "range"}) {
-                if (const auto found = valueOr(results, name); !found.is_null()) thresholds_[name] = found;
-            }
-            return {};
-        });
-    }
-    [[nodiscard]] double detection_ma() const {
-        return numberOr(valueOr(valueOr(valueOr(thresholds_, "detection"), "estimate_ma"), "value"));
+    /// Returns the detection threshold that was measured last before `t_s`; NaN if none was.
+    [[nodiscard]] double detectionAt_ma(double t_s) const {
+        double found = kNaN;
+        for (const auto& [at_s, threshold] : detections_) {
+            if (at_s <= t_s) found = threshold;
+        }
+        return found;
     }
 
     /// Returns the identifier of the stimulus that a train consists of, which is described once.
@@ -320,8 +319,9 @@ private:
     std::vector<TrainCause> causes_;
     std::vector<std::size_t> byTime_;  ///< positions in causes_
     std::map<std::size_t, TrainSeen> seen_;
+    std::vector<std::pair<double, double>> detections_;  ///< when each threshold was measured, and what it was, mA
     std::map<std::string, std::string> stimuli_;
-    json stimulusSet_ = json::array(), thresholds_ = json::object();
+    json stimulusSet_ = json::array();
 };
 
 std::vector<NibsWriter::Column> NibsWriter::columns() const {
@@ -349,10 +349,10 @@ std::vector<NibsWriter::Column> NibsWriter::columns() const {
     number("base_current_intensity", "Amplitude that the device was sent", "mA",
            [](const Row& row) { return row.train.told_ma; });
     word("threshold_type", "Kind of the threshold beside it",
-         [this](const Row&) { return std::isfinite(detection_ma()) ? "sensation" : ""; },
+         [this](const Row& row) { return std::isfinite(detectionAt_ma(row.train.time_s)) ? "sensation" : ""; },
          {{"sensation", "detection, 80 % right of two intervals"}});
-    number("threshold_reference_current", "Threshold that was measured in this session", "mA",
-           [this](const Row&) { return detection_ma(); });
+    number("threshold_reference_current", "Threshold as it was measured last before the train", "mA",
+           [this](const Row& row) { return detectionAt_ma(row.train.time_s); });
     number("contact_impedance", "Impedance of both electrodes, as the device measured it", "ohm",
            [](const Row& row) { return row.train.impedance_ohm; });
     number("measured_voltage_intensity", "Amplitude that the device read back", "V",
@@ -406,6 +406,10 @@ std::vector<NibsWriter::Column> NibsWriter::columns() const {
            [](const Row& row) { return row.cause.frame_s; });
     number("roughness", "Roughness R that it was made from", "1", [](const Row& row) { return row.train.roughness; });
     number("pressure", "Pressure P that it was made from", "1", [](const Row& row) { return row.train.pressure; });
+    word("nearest_limit", "The limit of the safety gate that it came nearest to, with the trains before it",
+         [](const Row& row) { return row.train.limit; });
+    number("nearest_limit_share", "What it takes of that limit", "1",
+           [](const Row& row) { return row.train.limitShare; });
     word("capture", "The oscilloscope's record that shows it, by its name in csv and hdf5 exports",
          [this](const Row& row) {
              return row.seen.capture == TrainSeen::kNone ? std::string() : source_.captures()[row.seen.capture].name;
@@ -473,7 +477,9 @@ Result<void> NibsWriter::writeSidecar() {
     }
     about["ElectrodeSet"] = electrodes();
     about["StimulusSet"] = stimulusSet_;
-    about["Thresholds"] = thresholds_.empty() ? json(kNoWord) : thresholds_;
+    const auto estimates = eventsNamed("estimate"), ranges = eventsNamed("range");
+    about["Thresholds"] = estimates.empty() ? json(kNoWord) : estimates;
+    about["PersonalRange"] = ranges.empty() ? json(kNoWord) : ranges;
     about["EncodingProfile"] = valueOr(session, "profile");
     about["EncodingProfileChanges"] = eventsNamed("settings");
     about["Calibrations"] = eventsNamed("calibration");
