@@ -227,7 +227,8 @@ void PilotResult::show(const RunResult& result, const QString& folder, bool ofSt
     blocks_->setText(blocks.isEmpty() ? QString() : tr("Right in ") + blocks.join(", ") + '.');
     blocks_->setVisible(!blocks.isEmpty());
     note_->setText(basisWords(result) + (ofStudy ? tr("Study folder: %1.") : tr("Rehearsal folder: %1.")).arg(folder) +
-                   (result.markers ? ' ' + qtext(markersSentence(*result.markers)) : QString()));
+                   (result.markers ? ' ' + qtext(markersSentence(*result.markers)) : QString()) +
+                   (result.lsl ? ' ' + qtext(lslSentence(*result.lsl)) : QString()));
     goOn_->hide();
     another_->setVisible(!ofStudy);
     makePrimary(*another_);

@@ -14,6 +14,7 @@
 #include "app/gui/pilot/ButtonUse.h"
 #include "app/run/MarkerServer.h"
 #include "core/devices/DeviceUri.h"
+#include "core/exchange/lsl/LslStreams.h"
 #include "core/seal/Secret.h"
 #include "core/study/Gates.h"
 
@@ -48,6 +49,7 @@ struct PilotStart {
 
     QString inputsOf{};                      ///< place for which their use is remembered (InputRows.h)
     std::optional<MarkerAddress> markers{};  ///< nothing: no markers are sent
+    LslOrder lsl{};                          ///< none by default
 
     [[nodiscard]] bool simulated() const {
         return std::ranges::all_of(devices, [](const DeviceUri& uri) { return uri.scheme == "sim"; });

@@ -15,16 +15,19 @@ namespace {
 
 constexpr const char* kScreenKey = "pilot/screen";
 constexpr const char* kMarkersKey = "pilot/markers";
-constexpr const char* kNoMarkers = "off";
+constexpr const char *kNoMarkers = "off", *kByLsl = "lsl";
 constexpr const char* kWholeSession = "pilot-identification";
 
 QString rememberedMarkers() { return QSettings().value(kMarkersKey, kNoMarkers).toString(); }
 
-/// Returns nothing if no markers are wanted.
+QStringList markerWords(const FieldForm& form) { return form.text("markers").split(' ', Qt::SkipEmptyParts); }
+
+/// Returns nothing if no markers are wanted by TCP.
 std::optional<Result<MarkerAddress>> markersFrom(const FieldForm& form) {
-    const auto text = form.text("markers");
-    if (text.isEmpty() || text == kNoMarkers) return std::nullopt;
-    return MarkerAddress::parse(text.toStdString());
+    auto words = markerWords(form);
+    words.removeIf([](const QString& word) { return word.compare(kByLsl, Qt::CaseInsensitive) == 0; });
+    if (words.isEmpty() || words == QStringList(kNoMarkers)) return std::nullopt;
+    return MarkerAddress::parse(words.join(' ').toStdString());
 }
 
 }  // namespace
@@ -74,10 +77,12 @@ std::vector<FormField> SeatRows::fields() const {
                          {key(KeySet::RightHand), QObject::tr("right hand: U I, J K, M and comma")}},
                         QObject::tr("Touch and mouse work with each of them.")),
             ownField(QObject::tr("Game pads, pedals"), inputs_),
-            textField("markers", QObject::tr("Markers, TCP port"), rememberedMarkers(),
+            textField("markers", QObject::tr("Markers, TCP or LSL"), rememberedMarkers(),
                       QObject::tr("“off”, or the port at which a recorder of EEG or EMG on this computer connects: "
                                   "5005. For one on another computer an address of this one too: 192.168.1.20:5005. A "
-                                  "line for each event with its time, and nothing of conditions, answers or people."),
+                                  "line for each event with its time, and nothing of conditions, answers or people. "
+                                  "“lsl”, also behind a port: the same by Lab Streaming Layer, as the stream "
+                                  "Tactoscope-markers, to all that its settings reach. Needs liblsl, and real time."),
                       kNoMarkers),
             tickField("blind", QObject::tr("Blind: conditions and answers are hidden"), true)};
 }
@@ -113,6 +118,7 @@ void SeatRows::writeTo(PilotStart& start) const {
     start.buttons = inputs_->devices();
     const auto to = markersFrom(form_);
     start.markers = to && *to ? std::optional(**to) : std::nullopt;
+    start.lsl.outlets = markerWords(form_).contains(kByLsl, Qt::CaseInsensitive);
 }
 
 QString SeatRows::missing(bool person) const {

@@ -244,6 +244,7 @@ void SessionConduct::run() {
     seats.passphrase = start_.passphrase;
     seats.exclusions = start_.exclusions;
     seats.markers = start_.markers;
+    order_.lsl = start_.lsl;
     if (!start_.person) {
         seats.watch = &desk_;
         seats.pace = start_.pace;

@@ -292,6 +292,15 @@ TEST_F(SessionStart, MarkersAreOffUntilAPortIsGivenAndAWrongOneIsInTheWay) {
     markers->setText("");
     emit markers->editingFinished();
     EXPECT_FALSE(page.start().markers);
+    EXPECT_FALSE(page.start().lsl.wanted());
+    markers->setText("LSL");
+    EXPECT_EQ(page.start().lsl, (LslOrder{true, ""}));
+    EXPECT_FALSE(page.start().markers);
+    markers->setText("5006 lsl");
+    EXPECT_EQ(page.start().lsl, (LslOrder{true, ""}));
+    EXPECT_EQ(page.start().markers, (MarkerAddress{"127.0.0.1", 5006}));
+    markers->setText("80 lsl");
+    EXPECT_FALSE(begin().isEnabled());
 }
 
 TEST_F(SessionStart, LooksRightInBothThemesAndSizes) {
