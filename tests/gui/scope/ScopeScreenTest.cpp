@@ -384,12 +384,20 @@ TEST_F(Screen, AMasksBandLiesBehindItsLaneAndAFailureIsSaidLarge) {
     model.fit();
     draw();
     EXPECT_GT(pixelsOf(screen.grab().toImage(), gui::colours().passCell), 5000);
+    const auto* traces = screen.axisRect();
+    const auto inked = [&] { return pixelsOf(screen.grab().toImage().copy(traces->rect()), gui::colours().fail); };
+    const auto before = inked();
+    const int high = traces->height();
     screen.setAlarm("✕ Mask failed: 1 of 3 captures outside");
     draw();
     shot(screen, "mask");
     EXPECT_GT(pixelsOf(screen.grab().toImage(), gui::colours().fail), 2000);
+    EXPECT_LT(inked(), before + 200) << "it covers no trace";
+    EXPECT_LT(traces->height(), high);
     screen.setMask(nullptr);
     screen.setAlarm({});
+    draw();
+    EXPECT_EQ(traces->height(), high) << "its room is kept only as long as it is there";
     EXPECT_EQ(screen.plottableCount(), 2);
 }
 

@@ -16,6 +16,10 @@ constexpr const char* kLevelWord = "T";
 constexpr const char* kOtherWord = "T₂";
 constexpr int kBandAlpha = 48;   ///< of 255: traces stay visible through a band
 constexpr double kWidthEnd = 8;  ///< pixels above and below the trigger's level
+constexpr double kAlarmLines = 1.4;
+constexpr int kAlarmGap = 4;  ///< pixels between the alarm and the traces
+
+QFont alarmFont() { return textFont(TextSize::Large, QFont::DemiBold); }
 
 }  // namespace
 
@@ -24,7 +28,11 @@ ScopeOverlay::ScopeOverlay(QCPAxis* keyAxis, QCPAxis* valueAxis)
 
 void ScopeOverlay::applyDefaultAntialiasingHint(QCPPainter* painter) const { painter->setAntialiasing(false); }
 
-QRect ScopeOverlay::clipRect() const { return plane_.area().adjusted(-1, -1, 2, 2).toRect(); }
+QRect ScopeOverlay::clipRect() const {
+    return plane_.area().adjusted(-1, state.alarm.isEmpty() ? -1 : -alarmHeight(), 2, 2).toRect();
+}
+
+int ScopeOverlay::alarmHeight() { return int(QFontMetricsF(alarmFont()).height() * kAlarmLines) + kAlarmGap; }
 
 Pennant ScopeOverlay::lanePennant(int lane) const {
     const auto& its = state.lanes[static_cast<std::size_t>(lane)];
@@ -241,16 +249,18 @@ void ScopeOverlay::drawNotes(QCPPainter& painter) const {
     }
 }
 
-/// Uses the ink colour, like every verdict that is not a pass: red is for STOP and faults.
+/// Uses the ink colour, like every verdict that is not a pass: red is for STOP and faults. Stands above the traces, in
+/// the room that the screen keeps for it.
 void ScopeOverlay::drawAlarm(QCPPainter& painter) const {
     if (state.alarm.isEmpty()) return;
     const auto& c = colours();
     const auto a = plane_.area();
-    const auto large = textFont(TextSize::Large, QFont::DemiBold);
+    const auto large = alarmFont();
     const QFontMetricsF metrics(large);
     QRectF box(0, 0, std::min(metrics.horizontalAdvance(state.alarm) + metrics.height(), a.width()),
-               metrics.height() * 1.4);
-    box.moveCenter(QPointF(a.center().x(), a.bottom() - metrics.height() * 0.9));
+               metrics.height() * kAlarmLines);
+    box.moveCenter(a.center());
+    box.moveBottom(a.top() - kAlarmGap);
     painter.fillRect(box, c.fail);
     painter.setFont(large);
     painter.setPen(c.failText);

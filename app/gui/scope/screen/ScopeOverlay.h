@@ -25,6 +25,8 @@ public:
     OverlayState state;
 
     [[nodiscard]] GripAt at(const QPointF& pixel) const;
+    /// The room that an alarm needs above the traces, in pixels.
+    [[nodiscard]] static int alarmHeight();
 
 protected:
     void applyDefaultAntialiasingHint(QCPPainter* painter) const override;

@@ -156,7 +156,8 @@ void ScopeScreen::restyle() {
     // Room for the numbers of all usual scales, so that the screen keeps its size when they change. Longer numbers make
     // the margin wider.
     const int side = small.horizontalAdvance("−0000") + small.height() + 12;
-    axisRect()->setMinimumMargins(QMargins(side, small.height() / 2 + 1, side, small.height() * 2 + 6));
+    const int above = small.height() / 2 + 1 + (alarm_.isEmpty() ? 0 : ScopeOverlay::alarmHeight());
+    axisRect()->setMinimumMargins(QMargins(side, above, side, small.height() * 2 + 6));
     for (auto* band : bands_) band->setColours(c.passCell, c.passText);
     for (const auto& lane : model_.lanes()) {
         const auto& graphs = graphs_[lane.key];
@@ -271,7 +272,11 @@ void ScopeScreen::setMask(const std::shared_ptr<const CaptureMask>& mask) {
 }
 
 void ScopeScreen::setAlarm(const QString& alarm) {
-    if (std::exchange(alarm_, alarm) != alarm) refreshOverlay();
+    const bool there = !alarm_.isEmpty();
+    if (std::exchange(alarm_, alarm) == alarm) return;
+    if (there == !alarm_.isEmpty()) return refreshOverlay();
+    restyle();
+    apply();
 }
 
 void ScopeScreen::fillOverlay() {
