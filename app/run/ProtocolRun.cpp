@@ -44,7 +44,8 @@ std::string RunResult::verdict() const {
 }
 
 Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Registry& registry,
-                                                          std::shared_ptr<BenchTap> tap) {
+                                                          std::shared_ptr<BenchTap> tap,
+                                                          std::optional<LeftFault>* found) {
     std::unique_ptr<ProtocolRun> run(new ProtocolRun(std::move(given)));
     RunOrder& order = run->order_;
     order.needed = order.ownNeeds.empty() ? order.declaration.needs : order.ownNeeds;
@@ -63,16 +64,39 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
             return failure(kept);
     }
     if (!order.stops) order.asked = run->bench().stops().mark();
-    if (auto left = run->leaveFault(); !left) return failure(left);
+    if (const auto fault = run->presentFault()) {
+        if (found != nullptr) *found = fault;
+        if (auto left = run->leaveFault(*fault); !left) return failure(left);
+    }
     return run;
 }
 
+std::optional<LeftFault> ProtocolRun::presentFault() const {
+    const auto fault = opened_->bench->unitFault();
+    if (!fault) return std::nullopt;
+    LeftFault left{{}, std::string(fault->reason.view())};
+    if (const auto& stimulator = opened_->bench->devices().stimulator) {
+        left.unit = unitOf(stimulator->identity().serial, stimulator->identity().uri);
+        left.grave = graveCause(fault->causes);
+    }
+    return left;
+}
+
 /// Resets a fault that an earlier run left in the stimulator, if the operator asks for it, and then checks again.
-Result<void> ProtocolRun::leaveFault() {
-    const auto seen = bench().telemetry();
-    if (seen.state != InterlockState::Faulted) return {};
-    if (order_.resetFault) return bench().resetFault();
+Result<void> ProtocolRun::leaveFault(const LeftFault& fault) {
     const auto kind = resultTraits(order_.declaration.kind).kind;
+    if (order_.resetFault) {
+        if (const auto& seen = order_.faultSeen; seen && !seen->is(fault))
+            return fail(ErrorCode::NotArmed,
+                        "nothing was reset: the fault that was acknowledged is of {} ({}), and {} is in another ({})",
+                        seen->unit, seen->reason, fault.unit, fault.reason);
+        if (!fault.grave || kind == ResultKind::LoadSafety) return bench().resetFault();
+        return fail(ErrorCode::NotArmed,
+                    "nothing was reset: {} is in a fault of {} ({}). Run the safety check first, load-safety with "
+                    "--reset-fault, or open it under “Safety check” in the window",
+                    fault.unit, nameOf(*fault.grave), fault.reason);
+    }
+    const auto seen = bench().telemetry();
     const bool session = kind == ResultKind::PilotIdentification || kind == ResultKind::PilotThresholds;
     return fail(ErrorCode::NotArmed,
                 "the stimulator is in a fault, {}. {} Fix the cause, then reset the fault: run again with "
@@ -156,7 +180,7 @@ RunResult ProtocolRun::finish() {
         static_cast<void>(session.event(opened_->clock->now(), "script not started", {{"why", notStarted_->message}}));
     }
     result.stoppedBySafety = endedBySafety(result.outcome, bench());
-    result.leftInFault = bench().telemetry().state == InterlockState::Faulted;
+    result.leftIn = presentFault();
     if (check_) check_->area = bench().profile().electrodeArea;  // as used in the run
     opened_->bench.reset();
     result.lsl = opened_->endLsl();

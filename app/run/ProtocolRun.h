@@ -14,6 +14,15 @@
 
 namespace tacto {
 
+/// The fault in which a run left its stimulator, or found it.
+struct LeftFault {
+    std::string unit;                      ///< the stimulator's driver and serial number; empty: there is none
+    std::string reason;                    ///< as kept with the fault
+    std::optional<FaultCause> grave = {};  ///< the stimulator's graveCause(): the safety check comes before other runs
+    /// True if it is the same fault of the same unit.
+    [[nodiscard]] bool is(const LeftFault& other) const { return unit == other.unit && reason == other.reason; }
+};
+
 /// The operator's order, after checks.
 struct RunOrder : BenchOrder {
     ProtocolSource script;
@@ -24,7 +33,10 @@ struct RunOrder : BenchOrder {
     /// File with this order's details for the certificate of a stimulator calibration (CertificateDetails.h); empty:
     /// only the laboratory's own details. Not used by other kinds of results.
     std::filesystem::path certificateDetails = {};
-    bool resetFault = false;  ///< resets a fault left in the stimulator by an earlier run; else the fault ends this run
+    /// Resets a fault left in the stimulator by an earlier run; else the fault ends this run. After a fault with a
+    /// grave cause only a load-safety run does so.
+    bool resetFault = false;
+    std::optional<LeftFault> faultSeen = {};  ///< resets only this fault; empty: any
 };
 
 /// Returns the load in a protocol's parameters, with which the simulated bench starts.
@@ -36,10 +48,10 @@ struct RunOrder : BenchOrder {
 /// The outcome of a run, even if the run failed.
 struct RunResult {
     ScriptOutcome outcome;
-    bool stoppedBySafety = false;    ///< by a fault, a refused train or an operator's stop
-    bool leftInFault = false;        ///< no run begins on the stimulator until its fault is reset
-    bool simulated = false;          ///< a device was simulated, or the results are a prediction; `marks` say which
-    std::vector<std::string> marks;  ///< from sessionMarks(): origin, calibration, flags of roughness R
+    bool stoppedBySafety = false;     ///< by a fault, a refused train or an operator's stop
+    std::optional<LeftFault> leftIn;  ///< no run begins on the stimulator until this fault is reset
+    bool simulated = false;           ///< a device was simulated, or the results are a prediction; `marks` say which
+    std::vector<std::string> marks;   ///< from sessionMarks(): origin, calibration, flags of roughness R
     std::vector<SessionDevice> devices;
     std::filesystem::path session;
     std::vector<Error> troubles;         ///< errors in addition to the outcome's own: closing the session
@@ -56,9 +68,10 @@ class ProtocolRun {
 public:
     /// Opens the devices that the protocol needs, with the load in its parameters. A stop ends the opening of devices;
     /// start() detects a later stop. Errors: as openBench() and certificateDetails(); NotArmed for a fault in which the
-    /// stimulator was left.
+    /// stimulator was left, which goes into `found` then.
     [[nodiscard]] static Result<std::unique_ptr<ProtocolRun>> prepare(RunOrder order, Registry& registry,
-                                                                      std::shared_ptr<BenchTap> tap = nullptr);
+                                                                      std::shared_ptr<BenchTap> tap = nullptr,
+                                                                      std::optional<LeftFault>* found = nullptr);
     /// Ends a running script and switches the output off. An unfinished run leaves its session without an end mark.
     ~ProtocolRun();
     ProtocolRun(const ProtocolRun&) = delete;
@@ -77,7 +90,8 @@ public:
     [[nodiscard]] const RunFiles& files() const noexcept { return opened_->files; }
 
 private:
-    [[nodiscard]] Result<void> leaveFault();
+    [[nodiscard]] Result<void> leaveFault(const LeftFault& fault);
+    [[nodiscard]] std::optional<LeftFault> presentFault() const;
     [[nodiscard]] Result<void> beginCheck();
     void endCheck(RunResult& result);
     explicit ProtocolRun(RunOrder order) : order_(std::move(order)) {}

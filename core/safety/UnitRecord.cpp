@@ -190,8 +190,9 @@ void UnitRecord::takeOver() {
     }
     const bool faultElsewhere = claim_ && claim_->faulted();
     if (!map_.fault.sound() || (faultElsewhere && map_.fault.content.causes == 0)) {
-        // Treated as a fault of the device: a reset checks the device, and arming begins with a check pulse.
-        Fault unknown{.causes = 1U << static_cast<unsigned>(FaultCause::DeviceFault), .wall_s = wall};
+        // Treated as a fault of the device: a reset checks the device, and arming begins with a check pulse. Counts as
+        // grave, since the cause is not known.
+        Fault unknown{.causes = bitOf(FaultCause::DeviceFault) | bitOf(FaultCause::Internal), .wall_s = wall};
         copyText(unknown.reason,
                  map_.fault.sound()
                      ? "a program of another account or data folder left this unit in a fault"
@@ -265,7 +266,7 @@ void UnitRecord::keepFault(FaultCause cause, std::string_view reason) noexcept {
         newer.wall_s = time_.wall().time_since_epoch().count();
         copyText(newer.reason, reason);
     }
-    newer.causes |= 1U << static_cast<unsigned>(cause);
+    newer.causes |= bitOf(cause);
     map_.fault.write(newer);
     if (claim_) claim_->keepFault(true);
 }

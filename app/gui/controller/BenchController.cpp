@@ -205,8 +205,8 @@ struct BenchController::Prepared {
 std::uint64_t BenchController::run(const RunOrder& order, StopMark asked) {
     const auto number = ++lastRun_;
     thread_.post([this, number, marked = begun(order, asked)] {
-        runOnThread(marked, number, [&](Registry& registry, std::shared_ptr<BenchTap> tap) -> Result<Prepared> {
-            auto made = ProtocolRun::prepare(marked, registry, std::move(tap));
+        runOnThread(marked, number, [&](auto& registry, auto tap, auto& found) -> Result<Prepared> {
+            auto made = ProtocolRun::prepare(marked, registry, std::move(tap), &found);
             if (!made) return failure(made);
             const std::shared_ptr<ProtocolRun> run(std::move(*made));
             return Prepared{run, run.get(), [run](RunRequest hooks) { return run->start(std::move(hooks)); },
@@ -219,7 +219,7 @@ std::uint64_t BenchController::run(const RunOrder& order, StopMark asked) {
 std::uint64_t BenchController::runPilot(const RunOrder& order, const PilotSeats& seats, StopMark asked) {
     const auto number = ++lastRun_;
     thread_.post([this, number, seats, marked = begun(order, asked)] {
-        runOnThread(marked, number, [&](Registry& registry, std::shared_ptr<BenchTap> tap) -> Result<Prepared> {
+        runOnThread(marked, number, [&](auto& registry, auto tap, auto&) -> Result<Prepared> {
             PilotOrder pilot;
             pilot.study = seats.study;
             if (seats.passphrase) {
@@ -350,11 +350,12 @@ void BenchController::runOnThread(const RunOrder& order, std::uint64_t number, c
             emit this->finished(finished);
         });
     };
-    auto prepared = prepare(registry, tap);
+    std::optional<LeftFault> found;
+    auto prepared = prepare(registry, tap, found);
     if (!prepared) {
         finished->result.outcome.error = prepared.error();
         finished->result.stoppedBySafety = prepared.error().code == ErrorCode::Stopped;
-        finished->result.leftInFault = prepared.error().code == ErrorCode::NotArmed;
+        finished->result.leftIn = std::move(found);
         return end();
     }
     auto& run = *prepared->run;

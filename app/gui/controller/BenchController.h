@@ -193,7 +193,9 @@ private:
     void closeOnThread();
     /// A prepared run of a protocol or of a study's session.
     struct Prepared;
-    using Prepare = std::function<Result<Prepared>(Registry& registry, std::shared_ptr<BenchTap> tap)>;
+    /// `found`: the fault that refused the run, if one did.
+    using Prepare = std::function<Result<Prepared>(Registry& registry, std::shared_ptr<BenchTap> tap,
+                                                   std::optional<LeftFault>& found)>;
     [[nodiscard]] RunOrder begun(const RunOrder& order, StopMark asked);
     void runOnThread(const RunOrder& order, std::uint64_t number, const Prepare& prepare);
     /// `why`: emitted by failed() in the same event as the change, so that both are seen together.

@@ -35,12 +35,6 @@ namespace {
 
 constexpr int kPreviewAfter_ms = 150;
 
-QString addressesOf(const std::vector<DeviceUri>& uris) {
-    QStringList all;
-    for (const auto& uri : uris) all << qtext(uri.text());
-    return all.isEmpty() ? QObject::tr("the simulated devices") : all.join(", ");
-}
-
 }  // namespace
 
 ProtocolWorkspace::ProtocolWorkspace(BenchController& controller, const QString& protocol, QWidget* parent)
@@ -295,13 +289,10 @@ void ProtocolWorkspace::ask(bool resetFault) {
         if (const auto part = pages_->form().goToRefused()) showStep(*part ? kReference : kSettings);
         return;
     }
-    // The operator acknowledges the fault of the last run; other devices may have a fault not seen yet.
-    if (resetFault && addressesOf(asked->uris) != addressesOf(last_->order.uris))
-        return panel_->say(tr("The fault was left in %1, and %2 is chosen now: nothing was reset. Choose the same "
-                              "devices again, or press Run.")
-                               .arg(addressesOf(last_->order.uris), addressesOf(asked->uris)));
     const auto harmless = controller_.allVirtual(asked->uris);
     if (!harmless) return panel_->say(tr("%1 Nothing was opened.").arg(sentence(harmless.error())));
+    // The operator acknowledges the fault of the last run; the devices that open may have one that was not seen.
+    if (resetFault) asked->faultSeen = last_->result.leftIn;
     asked->resetFault = resetFault;
     asked_.ask(std::move(*asked), controller_.mark());
     if (*harmless) return runNow();
@@ -310,10 +301,10 @@ void ProtocolWorkspace::ask(bool resetFault) {
                             "connected, and no person?")
                              .arg(QString::fromStdString(declaredLoad(asked_.order().settings.parameters)));
     if (!resetFault) return panel_->askToArm(current);
-    const auto& error = last_->result.outcome.error;
-    const auto why = error ? withoutScriptPlace(qtext(error->message)).section(". ", 0, 0) : tr("it ended the run");
+    const auto& fault = *last_->result.leftIn;
+    const auto unit = fault.unit.empty() ? tr("the fingertip sensor") : qtext(fault.unit);
     panel_->askToArm(tr("The fault is reset first, of %1: %2 Is its cause gone? %3")
-                         .arg(addressesOf(last_->order.uris), sentence(why), current));
+                         .arg(unit, sentence(qtext(fault.reason)), current));
 }
 
 /// True also while another run is just ending; its last messages are not for this page.

@@ -103,7 +103,7 @@ void ResultHead::show(const FinishedRun& run) {
     giveRoom();
     errorLine_ = outcome.line;
     // A fault of the bench is no mistake at a line of the script.
-    toScript_->setVisible(outcome.error && outcome.line > 0 && !run.result.leftInFault);
+    toScript_->setVisible(outcome.error && outcome.line > 0 && !run.result.leftIn);
 }
 
 void ResultHead::giveRoom() {

@@ -155,13 +155,22 @@ TEST(NextSteps, AfterAFaultTheWayBackComesFirst) {
     RecordProperty("hazard", "H12");
     auto run = finished({{"kind", "load-safety"}}, ScriptVerdict::None);
     run.result.outcome.error = Error{ErrorCode::Device, "the stimulator is unplugged"};
-    run.result.stoppedBySafety = run.result.leftInFault = true;
+    run.result.stoppedBySafety = true;
+    run.result.leftIn = LeftFault{"sciencemode P24-0017", "the stimulator is unplugged"};
     run.order.uris = {*DeviceUri::parse("sciencemode:"), *DeviceUri::parse("capture:/a?fault=open")};
     EXPECT_THAT(gui::nextStepsAfter(run),
                 ElementsAre(NextStep::ResetFault, NextStep::ChangeSettings, NextStep::Report, NextStep::Session));
     run.order.uris = {*DeviceUri::parse("sim:finger"), *DeviceUri::parse("sim:stimulator?gain=1&fault=open@3s")};
     EXPECT_EQ(gui::nextStepsAfter(run).front(), NextStep::WithoutFault);
-    run.result.stoppedBySafety = run.result.leftInFault = false;
+    run.order.uris = {*DeviceUri::parse("sciencemode:")};
+    run.result.leftIn->grave = FaultCause::LimitBroken;
+    run.order.declaration.kind = "stimulator-calibration";
+    EXPECT_EQ(gui::nextStepsAfter(run).front(), NextStep::SafetyCheck) << "not the run again";
+    EXPECT_EQ(std::ranges::count(gui::nextStepsAfter(run), NextStep::ResetFault), 0);
+    run.order.declaration.kind = "load-safety";
+    EXPECT_EQ(gui::nextStepsAfter(run).front(), NextStep::ResetFault) << "the check itself";
+    run.result.stoppedBySafety = false;
+    run.result.leftIn.reset();
     EXPECT_EQ(gui::nextStepsAfter(run).front(), NextStep::ChangeSettings) << "a mistake in a script";
 }
 

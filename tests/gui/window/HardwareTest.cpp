@@ -205,17 +205,39 @@ TEST_F(HardwareWindow, ARunThatAFaultEndedIsRunAgainByAResetThatAsks) {
     ASSERT_IN_TIME(comesTrue([&] { return runner->findChild<QLabel*>("runTrouble")->text().contains("in a fault"); }))
         << "a run alone resets nothing";
     ASSERT_IN_TIME(ended());
-    auto* devices = runner->findChild<QLineEdit*>("devices");
-    const auto faulted = devices->text();
-    devices->setText("sciencemode:P24-9999 sim:finger");
+    // As if another program had used the unit meanwhile.
+    const auto unit = unitOf(serial.text(), kStimulator);
+    const auto leaves = [&](FaultCause cause, const char* why) {
+        SteadyClock clock;
+        auto record = UnitRecord::open(unitFolders(), unit, clock);
+        ASSERT_TRUE(record) << record.error().message;
+        (*record)->clearFault();
+        (*record)->keepFault(cause, why);
+    };
+    const auto* question = runner->findChild<QLabel*>("armQuestion");
+    const auto* trouble = runner->findChild<QLabel*>("runTrouble");
+    leaves(FaultCause::OpenElectrode, "the electrode is open");
     presses("Reset fault and run again…");
-    EXPECT_THAT(runner->findChild<QLabel*>("runTrouble")->text(), Says("nothing was reset")) << "another unit's fault";
-    EXPECT_FALSE(runner->findChild<QLabel*>("armQuestion")->isVisible());
-    devices->setText(faulted);
+    EXPECT_THAT(question->text(), Says("fault is reset first"));
+    EXPECT_THAT(question->text(), Says(unit.c_str()));
+    EXPECT_THAT(question->text(), testing::Not(Says("electrode is open"))) << "not seen yet";
+    presses("Arm and run");
+    ASSERT_IN_TIME(comesTrue([&] { return trouble->text().contains("othing was reset"); }))
+        << trouble->text().toStdString();
+    EXPECT_THAT(trouble->text(), Says("electrode is open"));
+    ASSERT_IN_TIME(ended());
+    leaves(FaultCause::LimitBroken, "44 V were measured");
+    presses("Run again");
+    presses("Arm and run");
+    ASSERT_IN_TIME(comesTrue([&] { return find<QPushButton>(*runner, "Go to safety check") != nullptr; }))
+        << trouble->text().toStdString();
+    EXPECT_EQ(find<QPushButton>(*runner, "Reset fault and run again…"), nullptr) << "the safety check comes first";
+    leaves(FaultCause::OpenElectrode, "the electrode is open");
+    presses("Run again");
+    presses("Arm and run");
+    ASSERT_IN_TIME(ended());
     presses("Reset fault and run again…");
-    EXPECT_THAT(runner->findChild<QLabel*>("armQuestion")->text(), Says("fault is reset first"));
-    EXPECT_THAT(runner->findChild<QLabel*>("armQuestion")->text(), Says("P24-0017")) << "the unit";
-    EXPECT_THAT(runner->findChild<QLabel*>("armQuestion")->text(), Says("left by an earlier run")) << "and why";
+    EXPECT_THAT(question->text(), Says("electrode is open"));
     EXPECT_EQ(window.controller().activity(), gui::Activity::Closed) << "nothing is opened before the answer";
     presses("Arm and run");
     presses("Arm output");
