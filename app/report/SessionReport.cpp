@@ -39,6 +39,18 @@ QString shellWord(const QString& word) {
     return "'" + quoted.replace("'", "'\\''") + "'";
 }
 
+/// Returns the profile's description of the electrode (Profile.h): "TENS-40, 4 cm², Ag/AgCl, hydrogel".
+QString electrodeOf(const SessionAbout& about) {
+    const auto profile = parseJson(about.profileJson, "the profile");
+    if (!profile || !memberAt(*profile, "electrode").is_object()) return {};
+    const auto word = [&](const char* key) { return text(textOr(memberAt(*profile, "electrode"), key)); };
+    const auto& area = memberAt(*profile, "safety.electrode_area_cm2");
+    QStringList said{word("name"), area.is_number() ? settingText(area.get<double>(), "cm²") : QString(),
+                     word("material"), word("medium")};
+    said.removeAll(QString());
+    return said.join(", ");
+}
+
 void fillAbout(const SessionReader& reader, const std::filesystem::path& file, ReportModel& model) {
     const auto& about = reader.about();
     model.protocol = text(about.protocol);
@@ -74,6 +86,8 @@ void fillAbout(const SessionReader& reader, const std::filesystem::path& file, R
     model.identity.push_back({"Seed", QString::number(about.seed)});
     model.identity.push_back({"Clock", about.virtualClock ? "virtual: time ran as fast as the computer" : "real time"});
     if (!about.mode.empty()) model.identity.push_back({"Output mode", text(about.mode)});
+    if (const auto electrode = electrodeOf(about); !electrode.isEmpty())
+        model.identity.push_back({"Electrode", electrode});
     const auto hash = [&](const QString& name, const std::string& value) {
         if (!value.empty()) model.identity.push_back({name, text(value), true});
     };

@@ -16,6 +16,7 @@ constexpr std::string_view kPilotScripts = "pilot-";
 
 void fitProfile(Profile& profile, const StudySettings& study) {
     profile.electrodeArea = study.electrode.area;
+    profile.electrode.reset();  // the study's settings and particulars describe its own
     auto& train = profile.encoding.train;
     // Monophasic trains are refused on a person, and so is every other shape that a study may name.
     train.shape = study.train.shape == kBiphasic ? PulseShape::SymmetricBiphasic : PulseShape::Monophasic;

@@ -46,13 +46,15 @@ Result<void> BenchNotes::arming(const ArmRequest& request, const GateSetup& setu
     auto limits = nlohmann::json::array();
     for (const auto& set : setup.limits) limits.push_back(set.id);
     const auto area = setup.electrodeArea;
+    const auto written = toJson(profile);
     const auto noted = session_->event(clock_.now(), "arming",
                                        {{"load", request.load},
                                         {"load_least", setup.load.min.text()},
                                         {"load_most", setup.load.max.text()},
                                         {"electrode_area_cm2", area ? nlohmann::json(area->value()) : nlohmann::json()},
+                                        {"electrode", written.value("electrode", nlohmann::json())},
                                         {"limits", limits},
-                                        {"ceilings", toJson(profile).at("safety").at("ceilings")},
+                                        {"ceilings", written.at("safety").at("ceilings")},
                                         {"calibrated", setup.calibrated},
                                         {"mode", nameOf(setup.mode)},
                                         {"confirmed", request.confirmed}});

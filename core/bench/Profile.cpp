@@ -49,12 +49,20 @@ RecordFields<Profile> safetyFields() {
     return all;
 }
 
+RecordFields<ElectrodeDescription> electrodeFields() {
+    using E = ElectrodeDescription;
+    RecordFields<E> all;
+    all.texts({{"name", &E::name}, {"material", &E::material}, {"medium", &E::medium}}, {.mayBeEmpty = true});
+    return all;
+}
+
 RecordFields<Profile> buildProfileFields() {
     RecordFields<Profile> all;
     all.text("name", &Profile::name, {.mayBeEmpty = true});
     all.record("roughness", &Profile::roughness, roughnessFields());
     all.record("encoding", &Profile::encoding, encodingFields());
     all.record("safety", std::identity{}, safetyFields());
+    all.record("electrode", &Profile::electrode, electrodeFields()).leftOutIfEmpty = true;
     return all;
 }
 

@@ -2,7 +2,8 @@
 //
 //   {"name": "…", "roughness": {…}, "encoding": {…},
 //    "safety": {"load_low_ohm": 500, "load_high_ohm": 10000, "electrode_area_cm2": 3,
-//               "ceilings": {"peak_current": 20}}}
+//               "ceilings": {"peak_current": 20}},
+//    "electrode": {"name": "…", "material": "…", "medium": "…"}}
 //
 // The tables of fields say what each key accepts: roughnessFields(), encodingFields(), profileFields(). A ceiling's key
 // is a quantity of core/safety/LimitSet.h; its value is in that quantity's unit. A key that the file omits keeps the
@@ -23,6 +24,14 @@
 
 namespace tacto {
 
+/// What a laboratory calls its electrode; its area is Profile::electrodeArea. Recorded and reported; decides nothing.
+struct ElectrodeDescription {
+    std::string name;
+    std::string material;  ///< "Ag/AgCl"
+    std::string medium;    ///< between electrode and skin: "hydrogel"
+    bool operator==(const ElectrodeDescription&) const = default;
+};
+
 struct Profile {
     std::string name = "default";
     RoughnessSettings roughness;
@@ -30,6 +39,7 @@ struct Profile {
     Ohms loadLow{500};  ///< with loadHigh: the range for previews, and for a person's |Z|
     Ohms loadHigh{10'000};
     std::optional<SquareCentimetres> electrodeArea;  ///< without this area, density rows are not evaluated
+    std::optional<ElectrodeDescription> electrode;   ///< empty: not described
     Ceilings ceilings;
 };
 

@@ -33,6 +33,10 @@ TEST(Profile, ReadsBackWhatItWrites) {
     profile.encoding.amplitudeMax = Volts(30);
     const auto again = accepted(parseProfile(toJson(profile).dump(), "test"));
     EXPECT_EQ(toJson(again), toJson(profile));
+    EXPECT_FALSE(toJson(profile).contains("electrode")) << "nothing is said of it";
+    profile.electrode = {"TENS 40", "Ag/AgCl", "hydrogel"};
+    EXPECT_EQ(accepted(parseProfile(toJson(profile).dump(), "test")).electrode, profile.electrode);
+    EXPECT_EQ(toJson(profile)["electrode"]["medium"], "hydrogel");
 }
 
 TEST(Profile, RefusesWhatItDoesNotKnowByName) {

@@ -31,6 +31,8 @@ protected:
         about.limitSets = {{"paper", std::string(64, 'c')}};
         about.simulated = true;
         about.wallStart = "2026-11-20T14:03:05Z";
+        about.profileJson = R"({"safety": {"electrode_area_cm2": 4.5},
+                                "electrode": {"name": "TENS 40", "material": "", "medium": "hydrogel"}})";
         writer_ = accepted(SessionWriter::create(path_, about, clock_));
     }
 
@@ -60,6 +62,10 @@ TEST_F(SessionReport, SaysWhatWasUsed) {
     EXPECT_EQ(model.chainHead.toStdString(), head);
     EXPECT_EQ(model.devices.size(), 2U);
     EXPECT_TRUE(model.simulated);
+    const auto electrode =
+        std::ranges::find(model.identity, QString("Electrode"), [](const auto& row) { return row.name; });
+    ASSERT_NE(electrode, model.identity.end());
+    EXPECT_EQ(electrode->value.toStdString(), "TENS 40, 4.5\u202fcm², hydrogel");
     ASSERT_EQ(model.reproduce.size(), 2);
     EXPECT_EQ(
         model.reproduce[0].toStdString(),

@@ -3,6 +3,7 @@
 #include <QCoreApplication>
 #include <QScrollBar>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include "app/gui/theme/Pages.h"
@@ -27,6 +28,12 @@ FormField formFieldOf(const ProfileField& field) {
     return choiceField(field.key, profileWords(field.label), choices, profileWords(field.tip));
 }
 
+/// What the profile says of the electrode beside its area and name (ElectrodeDescription).
+struct ElectrodeText {
+    const char *name, *key;
+};
+constexpr ElectrodeText kElectrodeTexts[] = {{"electrode_material", "material"}, {"electrode_medium", "medium"}};
+
 }  // namespace
 
 ProfileTabs::ProfileTabs(QWidget* parent) : QTabWidget(parent) {
@@ -40,6 +47,13 @@ QWidget* ProfileTabs::buildTab(ProfileTab tab) {
     std::vector<FormField> fields;
     for (const auto& field : profileForm())
         if (field.tab == tab) fields.push_back(formFieldOf(field));
+    if (tab == ProfileTab::Load) {
+        const auto tip = tr("Recorded and reported with the electrode's name and area; decides nothing.");
+        const QString labels[] = {tr("Electrode material"), tr("Between electrode and skin")};
+        const QString hints[] = {tr("as Ag/AgCl"), tr("as hydrogel")};
+        for (std::size_t i = 0; i < std::size(kElectrodeTexts); ++i)
+            fields.push_back(textField(kElectrodeTexts[i].name, labels[i], {}, tip, hints[i]));
+    }
     form->show(fields);
     connect(form, &FieldForm::edited, this, &ProfileTabs::edited);
     auto* column = new QVBoxLayout(page);
@@ -66,6 +80,11 @@ void ProfileTabs::fill(const nlohmann::json& document) {
                                          ? QString::number(value.get<double>(), 'g', QLocale::FloatingPointShortest)
                                          : QString());
     }
+    const auto electrode = document.value("electrode", nlohmann::json::object());
+    const auto text = [&](const char* key) { return qtext(electrode.value(key, std::string())); };
+    auto& load = *forms_[std::size_t(ProfileTab::Load)];
+    load.nameElectrode(text("name"));
+    for (const auto& each : kElectrodeTexts) load.set(each.name, text(each.key));
 }
 
 std::optional<ProfileTabs::Refusal> ProfileTabs::read(nlohmann::json& document) const {
@@ -86,6 +105,11 @@ std::optional<ProfileTabs::Refusal> ProfileTabs::read(nlohmann::json& document) 
                                        qtext(typedTrouble(text.toStdString()))};
         value = *number;
     }
+    const auto& load = *forms_[std::size_t(ProfileTab::Load)];
+    nlohmann::json electrode{{"name", load.electrode().value_or(QString()).toStdString()}};
+    for (const auto& each : kElectrodeTexts) electrode[each.key] = load.text(each.name).trimmed().toStdString();
+    document.erase("electrode");
+    if (std::ranges::any_of(electrode, [](const auto& text) { return text != ""; })) document["electrode"] = electrode;
     return std::nullopt;
 }
 

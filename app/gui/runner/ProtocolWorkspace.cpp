@@ -264,6 +264,11 @@ Result<RunOrder> ProtocolWorkspace::order() {
     auto settings = pages_->form().read();
     if (!settings) return failure(settings);
     auto order = controller_.orderOf(source_, *declaration_, std::move(*settings));
+    auto& electrode = order.profile.electrode;
+    if (const auto name = pages_->form().electrode(); name && (!electrode || qtext(electrode->name) != *name)) {
+        electrode.reset();  // the profile describes another one
+        if (!name->isEmpty()) electrode.emplace().name = name->toStdString();
+    }
     if (auto filled = pages_->wiring().fill(order); !filled) return failure(filled);
     pages_->certificate().fill(order);
     return order;

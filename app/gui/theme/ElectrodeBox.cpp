@@ -50,6 +50,10 @@ ElectrodeBox::ElectrodeBox(QLineEdit& area, QWidget* parent) : QComboBox(parent)
     });
 }
 
+std::optional<QString> ElectrodeBox::named() const {
+    return area_.text().trimmed().isEmpty() ? std::nullopt : std::optional(currentText().trimmed());
+}
+
 void ElectrodeBox::showPopup() {
     list();
     QComboBox::showPopup();

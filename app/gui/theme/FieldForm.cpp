@@ -311,8 +311,10 @@ void FieldForm::addRow(Field& field) {
     line->addWidget(field.range);
     stack->addLayout(line);
     if (auto* area = qobject_cast<QLineEdit*>(field.editor);
-        area && std::ranges::count(kElectrodeAreas, parameter.name))
-        stack->addWidget(new ElectrodeBox(*area, column));
+        area && std::ranges::count(kElectrodeAreas, parameter.name)) {
+        stack->addWidget(electrode_ = new ElectrodeBox(*area, column));
+        connect(electrode_, &ElectrodeBox::currentTextChanged, this, &FieldForm::edited);
+    }
     field.trouble = new TroubleLine("trouble-" + QString::fromStdString(parameter.name), column);
     stack->addWidget(field.trouble);
     auto label = QString::fromStdString(parameter.label);
@@ -424,6 +426,14 @@ bool FieldForm::lacks(const Field& field) const {
     if (field.parameter.needed.empty() || known_.contains(field.parameter.name)) return false;
     const auto value = parseSetting(field.parameter, field.text().trimmed().toStdString());
     return value && (*value == 0 || (value->is_string() && value->get_ref<const std::string&>().empty()));
+}
+
+std::optional<QString> FieldForm::electrode() const {
+    return electrode_ == nullptr ? std::nullopt : electrode_->named();
+}
+
+void FieldForm::nameElectrode(const QString& name) {
+    if (electrode_ != nullptr) electrode_->setEditText(name);
 }
 
 QString FieldForm::unanswered() const {

@@ -10,8 +10,10 @@
 
 #include <QFormLayout>
 #include <QLabel>
+#include <QPointer>
 #include <QWidget>
 #include <functional>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -19,6 +21,8 @@
 #include "app/scripting/engine/ProtocolDeclaration.h"
 
 namespace tacto::gui {
+
+class ElectrodeBox;
 
 struct FormField {
     ProtocolParameter parameter;
@@ -68,6 +72,10 @@ public:
     void setRowVisible(QWidget& own, bool visible);
     [[nodiscard]] bool isRowVisible(QWidget& own) const;
     void setFieldEnabled(const std::string& name, bool enabled);
+    /// The name beside the area of an electrode, which may be empty; nothing if there is no such field or no area in
+    /// it.
+    [[nodiscard]] std::optional<QString> electrode() const;
+    void nameElectrode(const QString& name);
     /// Parameters with an answer from elsewhere, such as the electrode's area from the profile: 0 is then accepted.
     void setKnown(std::set<std::string> names);
     /// Reports a missing entry only after the operator has left the field, or after read() or goToRefused().
@@ -127,6 +135,7 @@ private:
     QWidget* reference_;
     QFormLayout* referenceRows_;
     std::vector<Field> fields_;
+    QPointer<ElectrodeBox> electrode_;
     std::set<std::string> known_;
     bool missingSaidOnceLeft_ = false;
 };

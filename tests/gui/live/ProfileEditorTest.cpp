@@ -5,6 +5,7 @@
 #include <QTabWidget>
 #include <QTemporaryDir>
 #include <QTest>
+#include <fstream>
 
 #include "app/gui/live/ProfileEditor.h"
 #include "app/gui/theme/Theme.h"
@@ -199,6 +200,41 @@ TEST_F(Editor, KeepsAProfileInAFile) {
     editor.openFile(path);
     EXPECT_EQ(editor.findChild<QLineEdit*>("interval_max_s")->text(), "1.3333333333333333");
     EXPECT_EQ(controller.profile().encoding.intervalMax.count(), 2) << "only Apply applies";
+}
+
+TEST_F(Editor, ANamedElectrodeIsPartOfTheProfile) {
+    const QTemporaryDir folder;
+    const auto kept = [&] {
+        const auto path = folder.filePath("mine.json");
+        editor.saveFile(path);
+        const auto profile = loadProfile(path.toStdString());
+        return profile ? profile->electrode : ElectrodeDescription{profile.error().message, {}, {}};
+    };
+    auto& name = *editor.findChild<QComboBox*>("electrode")->lineEdit();
+    EXPECT_FALSE(kept());
+    QTest::keyClicks(&name, "TENS 40");
+    EXPECT_FALSE(kept()) << "no area is of this name";
+    type("electrode_area_cm2", "4");
+    EXPECT_EQ(kept(), (ElectrodeDescription{"TENS 40", {}, {}}));
+    type("electrode_material", "Ag/AgCl");
+    type("electrode_medium", "hydrogel");
+    const auto whole = kept();
+    EXPECT_EQ(whole, (ElectrodeDescription{"TENS 40", "Ag/AgCl", "hydrogel"}));
+    click(button("Shipped values"));
+    EXPECT_FALSE(kept());
+    editor.openFile(folder.filePath("mine.json"));  // written without one meanwhile
+    EXPECT_FALSE(kept());
+    const auto mine = folder.filePath("named.json");
+    Profile named;
+    named.electrodeArea = SquareCentimetres(4);
+    named.electrode = whole;
+    std::ofstream(mine.toStdString()) << toJson(named).dump();
+    editor.openFile(mine);
+    EXPECT_EQ(name.text(), "TENS 40");
+    EXPECT_EQ(kept(), whole);
+    showTab(3);
+    shot(editor, "profile-electrode");
+    EXPECT_EQ(faultsOf(editor), "");
 }
 
 TEST_F(Editor, AFileThatIsWrongIsRefusedAndTheFormStays) {

@@ -1,5 +1,6 @@
 // Tests the safety check in its workspace: the electrode's area first, a row per load with its verdict, limits x loads.
 #include <QClipboard>
+#include <QComboBox>
 #include <QFileDialog>
 #include <QHeaderView>
 #include <QScrollArea>
@@ -13,6 +14,8 @@
 #include "app/gui/runner/LimitMatrixView.h"
 #include "app/gui/runner/LoadRows.h"
 #include "app/gui/theme/Theme.h"
+#include "core/bench/Profile.h"
+#include "core/session/SessionReader.h"
 #include "tests/gui/Person.h"
 #include "tests/gui/runner/Lab.h"
 #include "tests/support/InTime.h"
@@ -42,6 +45,7 @@ protected:
 TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     open("load-safety", {1150, 760});
     type("area", "3");
+    QTest::keyClicks(the<QComboBox>("electrode").lineEdit(), "TENS 40");
     type("steps", "2");
     ASSERT_IN_TIME(ready());
     shot(*workspace, "safety_before");
@@ -49,6 +53,11 @@ TEST_F(SafetyCheck, LoadsAreRowsThatTurnToVerdictsAndAMatrixOfLimits) {
     EXPECT_EQ(the<gui::LoadRows>("loadRows").rowCount(), 9);
     ASSERT_IN_TIME(ends());
     EXPECT_THAT(says("verdict").toStdString(), HasSubstr("PASS"));
+    const auto session = SessionReader::open(ended->result.session);
+    ASSERT_TRUE(session) << session.error().message;
+    const auto profile = parseProfile(session->about().profileJson, "the session");
+    ASSERT_TRUE(profile && profile->electrode);
+    EXPECT_EQ(profile->electrode->name, "TENS 40") << "the session names the electrode";
     click(step("Run"));
     for (const char* load : {"100 ohm", "500 ohm", "100 kohm", "open", "short", "200 ohm + 10 kohm || 50 nF"})
         EXPECT_THAT(verdictOf(load), HasSubstr("pass")) << load;
