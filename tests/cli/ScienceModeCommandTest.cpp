@@ -6,10 +6,13 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "core/devices/DeviceUri.h"
+#include "core/safety/UnitRecord.h"
 #include "tests/cli/ExitsInTime.h"
 #include "tests/cli/Shape.h"
 #include "tests/support/Figures.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 #include "tests/support/emulated/sciencemode/EmulatedPty.h"
 
@@ -305,6 +308,37 @@ TEST_F(ScienceModeCommand, AFaultStaysWithTheUnit) {
     }
     EXPECT_EQ(putOut().size(), before + 4);
     expectRefused(ScienceModeCommand::run({"status", "--reset-fault"}), 2, {"--reset-fault", "pulse"});
+}
+
+TEST_F(ScienceModeCommand, AGraveFaultIsResetByASafetyCheckAlone) {
+    RecordProperty("hazard", "H1");
+    const OwnSerial serial("EMU");
+    emulated_ = false;
+    auto settings = on("1 kohm");
+    settings.id = serial.text();
+    pty_.reset();
+    pty_ = *sciencemode::EmulatedPty::open(settings, clock_);
+    auto folders = unitFolders();
+    for (const auto& entry : desk_.environment())
+        if (entry.starts_with("XDG_DATA_HOME="))
+            folders.records = entry.substr(entry.find('=') + 1) + "/tactoscope/units";
+    const auto left = [&](const std::vector<FaultCause>& causes) {
+        auto record = accepted(UnitRecord::open(folders, unitOf(serial.text(), uri()), clock_));
+        for (const auto cause : causes) record->keepFault(cause, "44 V were measured");
+        return record->fault().has_value();
+    };
+    ASSERT_TRUE(left({FaultCause::OpenElectrode, FaultCause::LimitBroken}));
+    const auto reset = [&](const char* protocol) {
+        return desk_.run(
+            {"run", protocol, "--device", uri(), "--device", "sim:", "--reset-fault", "--out", desk_.at(protocol)});
+    };
+    const auto refused = reset("separability");
+    ASSERT_EXIT_IN_TIME(refused.code, 4) << refused.err;
+    expectRefused(refused, 4, {"a fault of limit broken", "44 V were measured", "load-safety with --reset-fault"});
+    EXPECT_TRUE(left({}));
+    const auto check = reset("load-safety");  // it ends at the question for the load, which nobody answers
+    EXPECT_THAT(check.err, testing::Not(HasSubstr("44 V were measured")));
+    EXPECT_FALSE(left({})) << check.err;
 }
 
 TEST_F(ScienceModeCommand, WithoutATerminalThereIsNoQuestionAndNothingIsDelivered) {
