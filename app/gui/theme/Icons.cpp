@@ -1,5 +1,6 @@
 #include "app/gui/theme/Icons.h"
 
+#include <QApplication>
 #include <QFile>
 #include <QIconEngine>
 #include <QPainter>
@@ -60,7 +61,8 @@ private:
     [[nodiscard]] QColor colour(QIcon::Mode mode) const {
         const auto& c = colours();
         if (mode == QIcon::Disabled) return c.edge;
-        return ink_ == Ink::Primary ? c.primaryText : c.text;
+        const bool onPrimary = ink_ == Ink::Primary && !qApp->property("primariesYield").toBool();
+        return onPrimary ? c.primaryText : c.text;
     }
 
     QString name_;

@@ -101,6 +101,8 @@ void makeQuiet(QPushButton& button) { setStyled(button, "role", "quiet"); }
 void letYield(QWidget& page, bool yields) {
     if (page.property("yields").toBool() == yields) return;
     page.setProperty("yields", yields);
+    qApp->setProperty("primariesYield",
+                      yields);  // for the icons on them, which get their colour when painted (Icons.cpp)
     for (auto* button : page.findChildren<QPushButton*>()) {
         if (button->property("role") != "primary") continue;
         button->style()->unpolish(button);

@@ -4,14 +4,17 @@
 #include <QComboBox>
 #include <QFile>
 #include <QFontInfo>
+#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QRegularExpression>
 #include <QSlider>
 #include <QSpinBox>
 #include <QTabBar>
 #include <QTableWidget>
 #include <QTest>
+#include <algorithm>
 #include <filesystem>
 #include <gtest/gtest.h>
 
@@ -294,6 +297,27 @@ TEST_P(InTheme, TheTickOfACheckBoxIsSeen) {
                       contrast(picture.pixelColor(x, y), gui::colours().primaryText) < 1.5;
     EXPECT_GE(ticked, 10);
     EXPECT_GT(pixelsOf(picture, gui::colours().primary), 60) << "its ground";
+}
+
+TEST_P(InTheme, AnIconIsSeenOnAPrimaryButtonAlsoWhileItsPageYields) {
+    QWidget page;
+    auto* row = new QHBoxLayout(&page);
+    auto* button = new QPushButton("Run", &page);
+    button->setIcon(gui::icon("run", gui::Ink::Primary));
+    gui::makePrimary(*button);
+    row->addWidget(button);
+    page.resize(200, 60);
+    for (const bool yields : {false, true, false}) {
+        gui::letYield(page, yields);
+        const auto ground = button->grab().toImage().pixelColor(6, button->height() / 2);
+        const auto drawn = button->icon().pixmap(24).toImage();
+        double most = 0;
+        for (int y = 0; y < drawn.height(); ++y)
+            for (int x = 0; x < drawn.width(); ++x)
+                if (const auto ink = drawn.pixelColor(x, y); ink.alpha() > 200)
+                    most = std::max(most, contrast(ink, ground));
+        EXPECT_GE(most, 4.5) << "yields: " << yields;
+    }
 }
 
 TEST_P(InTheme, EdgesOfFieldsAreSeen) {
