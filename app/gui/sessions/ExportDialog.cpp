@@ -100,7 +100,7 @@ QWidget* ExportDialog::buildButtons() {
     connect(close_, &QPushButton::clicked, this, &QDialog::reject);
     row->addWidget(folder_);
     row->addStretch();
-    addAll(*row, {close_, export_});
+    addAll(*row, {export_, close_});
     return holder;
 }
 

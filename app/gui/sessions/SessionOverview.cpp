@@ -177,7 +177,7 @@ void SessionOverview::showHead() {
     whole_ = why.isEmpty() ? tr("%1, %2%3.")
                                  .arg(beganText(entryOf(*session_).began), durationText(toSeconds(session_->length)),
                                       session_->about.simulated ? tr(", simulated") : QString())
-                           : why.first();
+                           : keptTogether(why.first()).replace("± ", "±\u00a0");
     fitWhy();
     why_->setToolTip(why.join('\n'));
 }

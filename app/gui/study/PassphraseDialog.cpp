@@ -67,6 +67,7 @@ PassphraseDialog::PassphraseDialog(Purpose purpose, const QString& study, QWidge
     column->addLayout(form);
     trouble_->setMinimumHeight(2 * fontMetrics().height());
     column->addWidget(trouble_);
+    column->addStretch();
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel, this);
     cancel_ = buttons->button(QDialogButtonBox::Cancel);
     go_ = buttons->addButton(changes ? tr("Change the passphrase")
