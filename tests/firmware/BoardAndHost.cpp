@@ -91,6 +91,7 @@ class Board {
 public:
     explicit Board(const te_profile& profile) : state_(std::make_unique<te_state>()) {
         EXPECT_EQ(te_init(state_.get(), &profile), TE_ACCEPTED);
+        te_rested(state_.get());
     }
 
     void feed(std::span<const StreamInfo> streams, std::span<const SampleBlock> blocks, Side& to) {

@@ -131,12 +131,16 @@ te_train randomTrain(Dice& dice, const te_profile& profile, std::int64_t now_ns)
     train.width_us = static_cast<float>(std::round(dice.decade(20, 1200)));
     train.gap_us = dice.chance(0.3) ? 0 : static_cast<float>(std::round(dice.between(0, 200)));
     train.recharge_ratio = static_cast<float>(std::round(dice.between(2, 10)));
-    train.pulses = dice.chance(0.5) ? 1 : 1 + static_cast<std::uint32_t>(dice.pick(12));
+    const bool dense = dice.chance(0.05);  // hardly a pause: only so the limit into 500 ohm is met first
+    train.pulses = dense              ? 20 + static_cast<std::uint32_t>(dice.pick(200))
+                   : dice.chance(0.5) ? 1
+                                      : 1 + static_cast<std::uint32_t>(dice.pick(12));
     const double widths = train.shape == TE_ASYMMETRIC ? 1 + double{train.recharge_ratio} : 2;
     const double pulse_s = (widths * double{train.width_us} + double{train.gap_us}) * 1e-6;
-    train.pulse_hz = static_cast<float>(1 / (pulse_s * dice.decade(1, 30)));
+    train.pulse_hz = static_cast<float>(1 / (pulse_s * (dense ? dice.between(1.15, 1.5) : dice.decade(1, 30))));
     const double shortest = train.pulses / double{train.pulse_hz};
-    train.interval_s = static_cast<float>(std::max(shortest * dice.decade(1, 3), dice.decade(0.03, 3)));
+    train.interval_s =
+        static_cast<float>(std::max(shortest * dice.decade(1, dense ? 1.3 : 3), dice.decade(0.03, dense ? 0.1 : 3)));
     // About the tightest of the limits, and often the command itself.
     const double low = double{profile.load_low_ohm};
     const double square = widths * double{train.width_us} * 1e-6 * train.pulses;
@@ -268,6 +272,7 @@ std::uint64_t trainsOfAFailingFinger(Dice& dice) {
     Rig rig(dice, randomEncoding(dice));
     const auto state = std::make_unique<te_state>();
     EXPECT_EQ(te_init(state.get(), &rig.profile), TE_ACCEPTED);
+    if (dice.chance(0.9)) te_rested(state.get());
     FailingFinger finger(dice, *state);
     for (int k = 0; k < 800 && !testing::Test::HasFailure(); ++k) {
         rig.waitUntil(rig.now_ns() + 10'000'000);

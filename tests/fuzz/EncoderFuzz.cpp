@@ -90,6 +90,7 @@ TACTO_FUZZ(EncoderFuzz, const std::uint8_t* data, std::size_t size) {
     Input in(data, size);
     const te_profile profile = changed(in);
     if (te_init(state.get(), &profile) != TE_ACCEPTED) return 0;
+    if ((size & 1U) != 0) te_rested(state.get());
     std::int64_t now = 1'000'000'000;
     while (!in.over()) {
         const auto kind = in.take<std::uint8_t>();

@@ -4,6 +4,7 @@
  * C99, static memory, of the C library only fabsf() and sqrtf(); README.md says what it costs. A main loop, whole:
  *
  *     if (te_init(&state, &profile) != TE_ACCEPTED) halt();
+ *     if (switched_on_by_hand) te_rested(&state);
  *     for (;;) {
  *         if (block_ready) te_samples(&state, TE_ACCELERATION, first_ns, step_ns, values, count);
  *         while (te_frame(&state, &frame)) report(&frame);
@@ -171,7 +172,8 @@ enum te_refusal {
 #define TE_FAULT_FUTURE 4U  /* a stamp lies more than 100 ms ahead */
 #define TE_FAULT_STUCK 8U   /* a sensor repeats itself */
 #define TE_FAULT_IMPLAUSIBLE 16U /* within 100 ms a reading was not a number, or no fingertip's */
-#define TE_FAULT_PROFILE 32U     /* te_init() refused, or was not called */
+#define TE_FAULT_RESTING 64U /* what came out before te_init() is not known: for 8 s from the first te_next_train() */
+#define TE_FAULT_PROFILE 32U /* te_init() refused, or was not called */
 
 #include "te_state.h"
 
@@ -196,6 +198,10 @@ int te_frame(struct te_state* state, struct te_reading* frame);
 
 /* Gives a train that is due, once; 0 when there is none. */
 int te_next_train(struct te_state* state, int64_t now_ns, struct te_train* train);
+
+/* Says that nothing came out in the last 8 s, which only the board can know: after te_init() there is no rest then. Not
+ * after a reset that it cannot explain. */
+void te_rested(struct te_state* state);
 
 /* Ends all output until the next te_init(). The board cancels a train that it has not begun. */
 void te_stop(struct te_state* state);

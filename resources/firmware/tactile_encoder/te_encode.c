@@ -67,6 +67,8 @@ enum te_refusal te_init(struct te_state* state, const struct te_profile* profile
 
 void te_stop(struct te_state* state) { state->stopped = 1U; }
 
+void te_rested(struct te_state* state) { state->rested = 1U; }
+
 /* Encoding ------------------------------------------------------------------------------------------------------ */
 
 static float curve(uint32_t kind, float beta, float x, float from, float to) {
@@ -203,6 +205,10 @@ static struct te_train train_of(const struct te_state* state, const struct te_co
 int te_next_train(struct te_state* state, int64_t now_ns, struct te_train* train) {
     struct te_series* const series = &state->series;
     enum te_refusal refusal;
+    if (!state->asked && now_ns >= 0 && now_ns <= TE_LAST_NS) {
+        state->asked = 1U;
+        state->asked_ns = now_ns;
+    }
     if (te_fault(state, now_ns) != 0U || !state->latest.contact || !(state->latest.R >= 0.0F)) {
         want_nothing(series);
         return 0;

@@ -143,7 +143,8 @@ struct te_state {
     int64_t implausible_ns;
     struct te_series series;
     struct te_gate gate;
-    uint32_t accepted, stopped;
+    uint32_t accepted, stopped, asked, rested;
+    int64_t asked_ns;                              /* first te_next_train() */
     uint32_t windows_lost, trains, trains_refused; /* counts, for a status */
     uint32_t refusal;                              /* enum te_refusal of the last train refused */
 };

@@ -62,6 +62,7 @@ size_t tacto_replay(const uint8_t* in, size_t size, uint8_t* out, size_t most) {
     if (size < at) return 0;
     copy(&profile, in, sizeof profile);
     if (te_init(&state, &profile) != TE_ACCEPTED) return 0;
+    te_rested(&state);
     while (size - at >= sizeof event) {
         size_t rows;
         copy(&event, in + at, sizeof event);
