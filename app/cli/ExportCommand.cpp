@@ -91,7 +91,11 @@ int exportOne(const QCommandLineParser& parser, const std::string& session) {
             fmt::format("export: --format is \"{}\"; {} are accepted, and dcc of a calibration", name, formatNames()));
     if (parser.isSet("with")) return usage("export: --with is for a study; " + session + " is none");
     const std::filesystem::path out = parser.value("out").toStdString();
-    if (const auto free = ExportTarget::begin(out, format->kind()); !free) return couldNotRun(free.error());
+    {
+        SignalStop interrupts;  // only while the place is tried: a passphrase may be asked for next
+        if (const auto free = ExportTarget::begin(out, format->kind()); !free) return couldNotRun(free.error());
+        if (interrupts.signalled()) return failWith({ErrorCode::Stopped, "cancelled; nothing was written"});
+    }
     auto seal = sealFor(parser, session, out);
     if (!seal) return couldNotRun(seal.error());
     SignalStop interrupts;
