@@ -429,15 +429,21 @@ json NibsWriter::eventsNamed(std::string_view name) const {
     return all;
 }
 
-/// What is known of the electrodes; the session knows their area, and a study's record the rest.
+/// What the session's profile knows of the electrodes (core/bench/Profile.h); a study's record knows the rest.
 json NibsWriter::electrodes() const {
-    const double area = numberOr(valueOr(valueOr(source_.description(), "profile"), "safety"), "electrode_area_cm2");
+    const auto profile = valueOr(source_.description(), "profile");
+    const double area = numberOr(valueOr(profile, "safety"), "electrode_area_cm2");
+    const auto word = [described = valueOr(profile, "electrode")](const char* key) {
+        auto text = textOr(described, key);
+        return text.empty() ? std::string(kNoWord) : text;
+    };
     auto set = json::array();
     for (const auto& [id, role] : {std::pair{"elec_1", "other: leads, its phase comes first"}, {"elec_2", "return"}}) {
         json each{{"ElectrodeID", id},
                   {"ElectrodeRole", role},
-                  {"ElectrodeMaterial", kNoWord},
-                  {"ElectrodeContactMedium", kNoWord},
+                  {"ElectrodeName", word("name")},
+                  {"ElectrodeMaterial", word("material")},
+                  {"ElectrodeContactMedium", word("medium")},
                   {"ElectrodeShape", kNoWord}};
         if (std::isfinite(area)) each["ElectrodeArea"] = {{"Value", area}, {"Units", "cm^2"}};
         set.push_back(std::move(each));
