@@ -1,5 +1,5 @@
 // HostileLsl.cpp - a library with liblsl's functions that does what a broken network or a broken liblsl may do; what it
-// does is said by TACTO_LSL_DOES.
+// does is said by lslTestDoes().
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -12,20 +12,22 @@
 
 namespace {
 
-bool does(const char* what) {
-    const char* all = std::getenv("TACTO_LSL_DOES");
-    return all != nullptr && std::strcmp(all, what) == 0;
-}
+std::atomic<const char*> doing{"nothing"};
+bool does(const char* what) { return std::strcmp(doing, what) == 0; }
 void hangIf(const char* what) {
     while (does(what)) std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 char kThing;
-std::atomic<int> created{0};
+std::atomic<int> created{0}, given{0};
 
 }  // namespace
 
 extern "C" {
+void lslTestDoes(const char* what) {  // a literal
+    doing = what;
+    given = 0;
+}
 int lslTestCreated() { return created; }
 
 std::int32_t lsl_library_version() { return does("is old") ? 112 : 118; }
@@ -69,25 +71,24 @@ double lsl_time_correction(void*, double, std::int32_t* error) {
     return 0;
 }
 double lsl_pull_sample_buf(void*, char** text, std::uint32_t* length, std::int32_t, double, std::int32_t* error) {
-    static std::atomic<std::uint32_t> count{0};
     *error = 0;
     hangIf("hangs while taking");
-    std::string given;
+    std::string sent;
     if (does("floods"))
-        given = "flood";
+        sent = "flood";
     else if (does("sends a mebibyte"))
-        given.assign(1 << 20, '\xe4');
+        sent.assign(1 << 20, '\xe4');
     else if (does("sends bytes"))
-        given = std::string("a\0b\x1b[2J\xff\xc3\xb6", 11);
+        sent = std::string("a\0b\x1b[2J\xff\xc3\xb6", 11);
     else if (does("loses its stream"))
         *error = -2;
-    if (given.empty() || (!does("floods") && ++count > 3)) {
+    if (sent.empty() || (!does("floods") && ++given > 3)) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
         return 0;
     }
-    *text = static_cast<char*>(std::malloc(given.size()));
-    std::memcpy(*text, given.data(), given.size());
-    *length = static_cast<std::uint32_t>(given.size());
+    *text = static_cast<char*>(std::malloc(sent.size()));
+    std::memcpy(*text, sent.data(), sent.size());
+    *length = static_cast<std::uint32_t>(sent.size());
     return does("sends bytes") ? INFINITY : now_s();
 }
 void lsl_destroy_string(char* text) { std::free(text); }
