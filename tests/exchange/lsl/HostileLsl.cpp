@@ -19,16 +19,18 @@ void hangIf(const char* what) {
 }
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 char kThing;
-std::atomic<int> created{0}, given{0};
+std::atomic<int> created{0}, looked{0}, given{0};
 
 }  // namespace
 
 extern "C" {
 void lslTestDoes(const char* what) {  // a literal
     doing = what;
-    given = 0;
+    looked = given = 0;
 }
 int lslTestCreated() { return created; }
+int lslTestLooked() { return looked; }
+int lslTestGiven() { return given; }
 
 std::int32_t lsl_library_version() { return does("is old") ? 112 : 118; }
 double lsl_local_clock() { return does("has no clock") ? NAN : now_s(); }
@@ -58,6 +60,7 @@ std::int32_t lsl_push_sample_buftp(void*, const char**, const std::uint32_t*, do
     return lsl_push_sample_dtp(nullptr, nullptr, 0, 0);
 }
 std::int32_t lsl_resolve_byprop(void** found, std::uint32_t, const char*, const char*, std::int32_t, double) {
+    ++looked;
     hangIf("hangs while looking");
     if (does("finds nothing")) return 0;
     found[0] = &kThing;

@@ -61,6 +61,8 @@ protected:
         return bodies;
     }
     static int created() { return function<int()>("lslTestCreated")(); }
+    static int looked() { return function<int()>("lslTestLooked")(); }
+    static int given() { return function<int()>("lslTestGiven")(); }
 
     const test::ScratchDir folder_;
     const std::filesystem::path path_ = folder_.path() / "s.tacto";
@@ -195,7 +197,7 @@ TEST_F(HostileLsl, AnyTextBecomesAPrintableNoteOrIsCounted) {
         std::filesystem::remove(path_);
         does(what);
         ASSERT_TRUE(openHeard({false, "Task"}));
-        std::this_thread::sleep_for(500ms);
+        EXPECT_IN_TIME(comes([] { return given() > 3; }, 20s));
         const auto tally = end();
         const auto all = marks();
         ASSERT_EQ(all.size(), 3U);
@@ -219,7 +221,7 @@ TEST_F(HostileLsl, AStreamThatIsNoTextIsNamed) {
         std::filesystem::remove(path_);
         does(what);
         ASSERT_TRUE(openHeard({false, "Task"}));
-        std::this_thread::sleep_for(200ms);
+        EXPECT_IN_TIME(comes([] { return looked() > 1; }, 20s));
         EXPECT_THAT(lslSentence(end()), HasSubstr(says));
     }
 }
