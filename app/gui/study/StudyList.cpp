@@ -80,6 +80,7 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
       title_(makeLabel({}, {.name = "studyTitle", .size = TextSize::Large}, this)),
       facts_(makeLabel({}, {.name = "studyFacts", .tone = Tone::Quiet}, this)),
       keys_(makeLabel({}, {.name = "studyKeys", .tone = Tone::Quiet, .selectable = true}, this)),
+      hold_(makeLabel({}, {.name = "studyHolds", .tone = Tone::Warning}, this)),
       trouble_(new QLabel(this)),
       participants_(new PageTable("participants", tr("Participants"), *this, kListPad, true)),
       withdrawn_(new QLabel(this)),
@@ -88,10 +89,10 @@ StudyList::StudyList(OpenStudy& study, QWidget* parent)
     auto* column = columnIn(*this, 8, {kListPad, kListPad, kListPad, kListPad});
     trouble_->setObjectName("studyTrouble");
     setTone(*withdrawn_, Tone::Quiet);
-    for (auto* label : {title_, facts_, keys_, trouble_, withdrawn_}) {
+    for (auto* label : {title_, facts_, keys_, hold_, trouble_, withdrawn_}) {
         wrapPlain(*label);
     }
-    addAll(*column, {title_, facts_, keys_, trouble_});
+    addAll(*column, {title_, facts_, keys_, hold_, trouble_});
     trouble_->hide();
     column->addSpacing(8);
     column->addWidget(buildParticipants());
@@ -224,10 +225,7 @@ QWidget* StudyList::buildFoot() {
     });
     const auto noted = [this](QDialog* asks) {
         const auto what = asks->windowTitle();
-        connect(asks, &QDialog::accepted, this, [this, what] {
-            const auto hinders = whatHinders();
-            say(tr("Noted: %1. %2").arg(what, hinders).trimmed(), !hinders.isEmpty());
-        });
+        connect(asks, &QDialog::accepted, this, [this, what] { say(tr("Noted: %1.").arg(what), false); });
         return asks;
     };
     addAction(*note, tr("An amendment of the committee…"), "amendStudy",
@@ -265,15 +263,14 @@ void StudyList::say(const QString& what, bool trouble) {
     trouble_->setVisible(!what.isEmpty());
 }
 
-void StudyList::sayWhatHinders() { say(whatHinders()); }
-
-QString StudyList::whatHinders() const {
-    const auto* study = study_.study();
-    const auto approved = study == nullptr ? Result<void>() : study->stillApproved();
-    auto words = approved ? QString() : tr("No session can begin: %1").arg(sentence(approved.error()));
-    if (release_->isVisible()) words += ' ' + tr("Here that is “%1” under “Note”.").arg(release_->text());
-    if (goBack_->isVisible()) words += ' ' + tr("Here that is “%1” under “Note”.").arg(goBack_->text());
-    return words;
+/// Shown apart from what say() says, so that no other message takes its place.
+void StudyList::showHold(const Study& study) {
+    const auto approved = study.stillApproved();
+    auto words = approved ? QString() : tr("⚠ No session can begin: %1").arg(sentence(approved.error()));
+    for (const auto* way : {release_, goBack_})
+        if (!approved && way->isVisible()) words += ' ' + tr("Here that is “%1” under “Note”.").arg(way->text());
+    hold_->setText(words);
+    hold_->setVisible(!words.isEmpty());
 }
 
 void StudyList::refresh() {
@@ -303,7 +300,7 @@ void StudyList::showTables(const Study& study) {
                              return each.second.serious && each.second.releasedBy.empty();
                          }));
     goBack_->setVisible(study.lossOfGoingBack().has_value());
-    if (!study.stillApproved()) sayWhatHinders();
+    showHold(study);
     const auto people = participantRows(study);
     {
         const QSignalBlocker asOne(participants_);  // the buttons for one participant keep the focus

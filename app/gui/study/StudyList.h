@@ -30,8 +30,6 @@ public:
     [[nodiscard]] QWidget* foot() const { return foot_; }
     /// Shows a sentence about a problem; empty for none.
     void say(const QString& what, bool trouble = true);
-    /// Shows why no session can begin; shows nothing if one can.
-    void sayWhatHinders();
     /// Returns the chosen participant's code; empty if none is chosen.
     [[nodiscard]] QString chosen() const;
 
@@ -50,7 +48,7 @@ private:
     void choose(const QString& code);
     void askForConsent(const QString& code);
     [[nodiscard]] QString signedIn(const QString& code) const;
-    [[nodiscard]] QString whatHinders() const;
+    void showHold(const Study& study);
     void makeReport(const QString& title, const QString& name, const QStringList& more);
     void askForExport(const BidsWith& with);
     void changePassphrase();
@@ -63,6 +61,7 @@ private:
     QLabel* title_;
     QLabel* facts_;
     QLabel* keys_;  ///< where the key file lies, and who should hold a copy
+    QLabel* hold_;  ///< why no session can begin; hidden if one can
     QLabel* trouble_;
     PageTable* participants_;
     QLabel* withdrawn_;

@@ -64,7 +64,7 @@ StudyPage::StudyPage(OpenStudy& study, QWidget* parent)
     connect(&study_, &OpenStudy::opened, this, [this] {
         say({});
         remember(study_.folder());
-        list_->sayWhatHinders();
+        list_->say({});
         pages_->setCurrentIndex(kList);
     });
     connect(&study_, &OpenStudy::refused, this, [this](const QString& why) {

@@ -195,8 +195,7 @@ TEST_F(StudyPageTest, AnOlderLedgerIsRefusedAndGoneBackToByItsWordAndThePassphra
     study.close();
     fs::copy_file(old, at / "ledger.tacto", fs::copy_options::overwrite_existing);
     open();
-    EXPECT_THAT(page.findChild<QLabel*>("studyTrouble")->text().toStdString(),
-                HasSubstr("tactoscope-cli study go-back"));
+    EXPECT_THAT(page.findChild<QLabel*>("studyHolds")->text().toStdString(), HasSubstr("tactoscope-cli study go-back"));
     Participant another;
     EXPECT_FALSE(study.study()->enrol(another));
     ASSERT_TRUE(page.findChild<QAction*>("goBackInStudy")->isVisible());
@@ -464,7 +463,7 @@ TEST_F(StudyPageTest, AfterASeriousEventTheStudyIsReleasedByNameInTheWindow) {
     ASSERT_TRUE(study.study()->adverseEvent({}, {.what = "fell", .serious = true}));
     study.noteChange();
     EXPECT_TRUE(release->isVisible());
-    EXPECT_THAT(page.findChild<QLabel*>("studyTrouble")->text().toStdString(), HasSubstr("dverse event 1 was serious"));
+    EXPECT_THAT(page.findChild<QLabel*>("studyHolds")->text().toStdString(), HasSubstr("dverse event 1 was serious"));
     choose("releaseStudy");
     auto* asks = dialog("releaseDialog");
     ASSERT_NE(asks, nullptr);
@@ -567,9 +566,19 @@ TEST_F(StudyWithASession, ASeriousEventIsNotedAndTheHoldIsStillSaid) {
     asks->findChild<QCheckBox*>("serious")->setChecked(true);
     click(*asks->findChild<QPushButton*>("noteEvent"));
     ASSERT_EQ(study.study()->adverseEventCount(), 1U);
-    const auto says = page.findChild<QLabel*>("studyTrouble")->text().toStdString();
-    for (const char* part : {"⚠", "Noted", "No session can begin", "Release after a serious event"})
-        EXPECT_THAT(says, HasSubstr(part));
+    EXPECT_THAT(page.findChild<QLabel*>("studyTrouble")->text().toStdString(), HasSubstr("Noted"));
+    const auto* holds = page.findChild<QLabel*>("studyHolds");
+    const auto held = holds->text().toStdString();
+    for (const char* part : {"⚠", "No session can begin", "Release after a serious event"})
+        EXPECT_THAT(held, HasSubstr(part));
+    for (auto* action : page.findChild<QPushButton*>("noteOfStudy")->menu()->actions()) {
+        const auto name = action->objectName();
+        if (!action->isVisible() || !action->isEnabled()) continue;
+        action->trigger();
+        for (auto* dialog : page.findChildren<QDialog*>()) dialog->reject();
+        EXPECT_EQ(holds->text().toStdString(), held) << name.toStdString();
+        EXPECT_FALSE(holds->isHidden()) << name.toStdString();
+    }
 }
 
 TEST_F(StudyWithASession, TheDayAfterIsNotedByTheWindow) {
