@@ -241,6 +241,8 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
         made->study_, made->who_, {textOf(order, "unfinished"), order.script.name, pilot.people != nullptr});
     if (!unfinished) return failure(unfinished);
     made->unfinished_ = std::move(*unfinished);
+    if (auto may = made->study_.mayTakePart(made->who_, made->unfinished_.continued().has_value()); !may)
+        return failure(may);
     made->fitOrder(order, pilot);
     if (auto chosen = made->chooseWords(textOf(order, kLanguage), pilot.study); !chosen) return failure(chosen);
     const VirtualObserver* truth = nullptr;

@@ -283,6 +283,11 @@ SessionBasis Study::basisOf(const Participant& who) const {
     return basisOf({.code = {}, .script = {}, .encoding = {}, .devicesSimulated = simulated, .exclusions = {}}, who);
 }
 
+Result<void> Study::mayTakePart(const Participant& participant, bool again) const {
+    if (auto may = state_->changeable(); !may) return may;
+    return StudyGates(*state_).beforehand(participant, again);
+}
+
 Result<void> Study::mayBegin(const SessionRequest& request) const {
     if (auto may = state_->changeable(); !may) return may;
     const auto participant = state_->find(request.code);

@@ -248,6 +248,10 @@ public:
     /// Records the items answered "yes", sealed for the participant, who is then excluded for the rest of the day
     /// whatever they answer later. Does nothing if every answer is "no", and for a virtual participant.
     [[nodiscard]] Result<void> noteExclusions(const SessionRequest& request);
+    /// Checks what is known before the checklist is answered and devices are opened: record, approval, hold,
+    /// participant, age, pause since the last session, consent, a yes of today. `again`: an unfinished session would go
+    /// on, without the pause. Changes nothing.
+    [[nodiscard]] Result<void> mayTakePart(const Participant& participant, bool again) const;
     /// Checks every gate as if no session were unfinished. Changes nothing.
     [[nodiscard]] Result<void> mayBegin(const SessionRequest& request) const;
     /// Checks every gate, then books the session. If a gate refuses, nothing is created.

@@ -571,15 +571,14 @@ Result<void> StudyGates::basisGate(const SessionRequest& request, const Particip
     return {};
 }
 
-Result<void> StudyGates::session(const SessionRequest& request, Participant participant, bool again) const {
+Result<void> StudyGates::beforehand(Participant participant, bool again) const {
     if (auto holds = stillApproved(); !holds) return holds;
-    if (auto holds = scriptGate(book_.settings, request.script); !holds) return holds;
-    if (auto holds = procedureGate(book_.settings, request.procedure); !holds) return holds;
     if (again) --participant.sessions;
     participant.sessions -= static_cast<int>(std::ranges::count_if(book_.known.sessions, [&](const StudySession& each) {
         return each.participant == participant.id && !each.opened;
     }));
     if (auto holds = participantGate(book_.settings, participant); !holds) return holds;
+    if (auto holds = ageGate(book_.settings, participant); !holds) return holds;
     std::optional<std::chrono::sys_seconds> last;
     for (const auto& session : book_.known.sessions) {
         if (again || session.participant != participant.id) continue;
@@ -592,12 +591,19 @@ Result<void> StudyGates::session(const SessionRequest& request, Participant part
             return waits(std::move(holds));
     }
     if (auto holds = book_.consented(participant); !holds) return holds;
-    if (!request.codeConfirmed) {
-        return fail(kGateRefused, "the participant has not confirmed that the code {} is theirs", participant.code);
-    }
     if (const auto yes = book_.known.excluded.find(participant.id);
         yes != book_.known.excluded.end() && !(utcDay(yes->second) < book_.today())) {
         return waits(fail(kGateRefused, "{} answered yes to the exclusion checklist today", participant.code));
+    }
+    return {};
+}
+
+Result<void> StudyGates::session(const SessionRequest& request, const Participant& participant, bool again) const {
+    if (auto holds = beforehand(participant, again); !holds) return holds;
+    if (auto holds = scriptGate(book_.settings, request.script); !holds) return holds;
+    if (auto holds = procedureGate(book_.settings, request.procedure); !holds) return holds;
+    if (!request.codeConfirmed) {
+        return fail(kGateRefused, "the participant has not confirmed that the code {} is theirs", participant.code);
     }
     if (auto holds = exclusionGate(request.exclusions, book_.settings); !holds) return holds;
     if (auto holds = simulationGate(book_.settings, participant, request.devicesSimulated); !holds) return holds;

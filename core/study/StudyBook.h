@@ -121,8 +121,10 @@ public:
     [[nodiscard]] Result<void> record() const;
     /// Checks the record and approval gates.
     [[nodiscard]] Result<void> stillApproved() const;
-    /// Checks every gate of a session; `again`: the session is resumed.
-    [[nodiscard]] Result<void> session(const SessionRequest& request, Participant participant, bool again) const;
+    /// Checks every gate of a session that is known before its checklist is answered; `again`: it is resumed.
+    [[nodiscard]] Result<void> beforehand(Participant participant, bool again) const;
+    /// Checks every gate of a session, those of beforehand() first.
+    [[nodiscard]] Result<void> session(const SessionRequest& request, const Participant& participant, bool again) const;
 
 private:
     /// Checks that no serious event holds the study. Rehearsals pass.

@@ -15,9 +15,16 @@ using Desk = test::StudyDesk;
 /// If a gate refuses, nothing is created: the study's folder and keys stay the same, byte for byte.
 class GateOfASession : public Desk {
 protected:
+    /// `known`: when this is known.
+    enum class Known { Beforehand, WithTheChecklist };
     void expectRefused(Study& study, const SessionRequest& request, std::string_view part,
-                       ErrorCode code = kGateRefused) {
+                       ErrorCode code = kGateRefused, Known known = Known::Beforehand) {
         RecordProperty("hazard", "H12");
+        if (const auto who = study.find(request.code)) {
+            const auto may = study.mayTakePart(*who, false);
+            EXPECT_EQ(may.has_value(), known == Known::WithTheChecklist) << part;
+            if (!may) EXPECT_THAT(may, test::refused(code, part));
+        }
         const auto head = study.ledgerHead();
         const auto bytes = everythingBelow(scratch.path());
         EXPECT_THAT(study.beginSession(request), test::refused(code, part));
@@ -33,19 +40,19 @@ TEST_F(GateOfASession, EachRefusesWithItsSentence) {
     const auto request = test::someRequest(code);
     auto other = request;
     other.script.sha256 = std::string(64, 'f');
-    expectRefused(study, other, "a changed script needs an amendment");
+    expectRefused(study, other, "a changed script needs an amendment", kGateRefused, Known::WithTheChecklist);
     other = request;
     other.codeConfirmed = false;
-    expectRefused(study, other, "has not confirmed that the code");
+    expectRefused(study, other, "has not confirmed that the code", kGateRefused, Known::WithTheChecklist);
     other = request;
     other.exclusions.front().yes = true;
-    expectRefused(study, other, "no session today");
+    expectRefused(study, other, "no session today", kGateRefused, Known::WithTheChecklist);
     other = request;
     other.exclusions.pop_back();
-    expectRefused(study, other, "1 of the 10 questions");
+    expectRefused(study, other, "1 of the 10 questions", kGateRefused, Known::WithTheChecklist);
     other = request;
     other.devicesSimulated = false;
-    expectRefused(study, other, "only simulated devices are accepted");
+    expectRefused(study, other, "only simulated devices are accepted", kGateRefused, Known::WithTheChecklist);
     other = request;
     other.code = "P-7K3M";
     expectRefused(study, other, "its check character is wrong", ErrorCode::NotFound);
@@ -63,6 +70,19 @@ TEST_F(GateOfASession, EachRefusesWithItsSentence) {
     ASSERT_TRUE(study.leave(code));
     expectRefused(study, request, "has left the study");
     EXPECT_TRUE(study.stillApproved());
+}
+
+TEST_F(GateOfASession, AnAgeBelowAnAmendmentsIsRefusedBeforehand) {
+    auto study = make();
+    Participant young;
+    young.age = "19";
+    const auto code = study.enrol(young).value().code;
+    ASSERT_TRUE(study.consent(code, {"2", study.today(), "KL"}));
+    EXPECT_TRUE(study.mayTakePart(*study.find(code), false));
+    auto amended = study.settings();
+    amended.ageMin = 21;
+    ASSERT_TRUE(study.amend(amended, "EC-2026-18"));
+    expectRefused(study, test::someRequest(code), "19 years is below");
 }
 
 TEST_F(GateOfASession, AYesEndsThePersonsDayWhateverIsAnsweredLater) {
@@ -141,6 +161,7 @@ TEST_F(WithDesk, TheNextSessionWaitsForTheGap) {
     ASSERT_TRUE(study.endSession(begun.session.id, StudySessionState::Stopped, record(begun)));
     time.now += std::chrono::hours(19);
     EXPECT_EQ(study.beginSession(test::someRequest(code)).error().code, kGateRefused);
+    EXPECT_THAT(study.mayTakePart(*study.find(code), false), test::refusedSaying("the next session is possible from"));
     time.now += std::chrono::hours(1);
     const auto next = test::accepted(study.beginSession(test::someRequest(code)));
     EXPECT_EQ(next.session.number, 2);

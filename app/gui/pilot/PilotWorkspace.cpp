@@ -208,7 +208,10 @@ void PilotWorkspace::prepareStart(const QString& code) {
     if (study == nullptr) return;
     const auto who = study->find(code.toStdString());
     if (!who) return studies_->list().say(sentence(who.error()));
-    start_->prepare(*study, *who);
+    if (const auto refused = start_->prepare(*study, *who); !refused.isEmpty()) {
+        showPage(kHome);
+        return studies_->list().say(refused);
+    }
     lossSaid_ = false;
     showPage(kStart);
 }

@@ -105,7 +105,16 @@ void SessionStartPage::buildChecklist() {
     connect(checklist_, &ExclusionChecklist::changed, this, &SessionStartPage::judge);
 }
 
-void SessionStartPage::prepare(const Study& study, const Participant& participant) {
+QString SessionStartPage::prepare(const Study& study, const Participant& participant) {
+    const auto refusal = [&](bool again) {
+        const auto may = study.mayTakePart(participant, again);
+        return may ? QString() : sentence(may.error());
+    };
+    const auto unfinished = unfinishedOf(study, participant);
+    const bool mayGoOn = unfinished && *unfinished && (*unfinished)->mayGoOn;
+    refusedAnew_ = refusal(false);
+    refusedAgain_ = mayGoOn ? refusal(true) : refusedAnew_;
+    if (!refusedAnew_.isEmpty() && !refusedAgain_.isEmpty()) return refusedAgain_;
     code_ = participant.code;
     virtual_ = participant.virtualSeed.has_value();
     rehearsal_ = study.isRehearsal();
@@ -119,7 +128,6 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
     study_ = qtext(study.settings().id);
     seats_->recall(study_);
     if (const auto& approved = study.settings().procedure) form_->set("method", qtext(nameOf(approved->method)));
-    const auto unfinished = unfinishedOf(study, participant);
     say(unfinished ? QString() : sentence(unfinished.error()));
     offer_->offer({});  // forgets an earlier choice
     offer_->offer(unfinished ? *unfinished : std::nullopt);
@@ -134,6 +142,7 @@ void SessionStartPage::prepare(const Study& study, const Participant& participan
     judge();
     if (auto* first = form_->findChild<QWidget*>("protocol"); first != nullptr) first->setFocus();
     page_->verticalScrollBar()->setValue(0);
+    return {};
 }
 
 void SessionStartPage::chooseGoOn() { offer_->chooseGoOn(); }
@@ -165,14 +174,17 @@ void SessionStartPage::judge() {
     auto lacks = devices_->missing();
     if (lacks.isEmpty()) lacks = seats_->missing(!virtual_);
     const bool refused = sayRefused(*trouble_, *form_);
+    const auto& mayNot = offer_->goesOn() ? refusedAgain_ : refusedAnew_;
+    asks_->setEnabled(!chosen || mayNot.isEmpty());
     const bool yes = !virtual_ && std::ranges::any_of(checklist_->answers(), &ExclusionAnswer::yes);
     const auto why =
         yes ? tr("A question was answered with yes: there is no session today. End the day, and the study keeps it.") +
                   (checklist_->changedFromYes() ? ' ' + tr("If the yes was a slip, tick so below the questions.")
                                                 : QString())
-        : !chosen          ? tr("First choose what happens to the interrupted session.")
-        : !lacks.isEmpty() ? lacks
-        : !whole           ? tr("%1 of %2 questions of the checklist are answered; each is needed.")
+        : !chosen           ? tr("First choose what happens to the interrupted session.")
+        : !mayNot.isEmpty() ? mayNot
+        : !lacks.isEmpty()  ? lacks
+        : !whole            ? tr("%1 of %2 questions of the checklist are answered; each is needed.")
                        .arg(open)
                        .arg(checklist_->items().size())
                  : QString();

@@ -30,8 +30,9 @@ class SessionStartPage final : public QWidget {
 public:
     /// `watch`, which lists the connected devices, must outlive this page.
     explicit SessionStartPage(const DeviceWatch& watch, QWidget* parent = nullptr);
-    /// Resets the page for a session with `participant`.
-    void prepare(const Study& study, const Participant& participant);
+    /// Resets the page for a session with `participant`. Returns why none can begin or go on now, as far as the study
+    /// knows before the checklist is answered; then the page is as before.
+    [[nodiscard]] QString prepare(const Study& study, const Participant& participant);
     /// Chooses to go on with the interrupted session, if that is possible.
     void chooseGoOn();
     /// Returns all settings except the study's folder and passphrase.
@@ -54,8 +55,9 @@ private:
     void judge();
 
     std::string code_;
-    QString title_;  ///< the study's title
-    QString study_;  ///< the study's id
+    QString refusedAnew_, refusedAgain_;  ///< why no session begins, and why an interrupted one cannot go on
+    QString title_;                       ///< the study's title
+    QString study_;                       ///< the study's id
     int blocks_ = 5;
     bool virtual_ = false;
     bool rehearsal_ = false;

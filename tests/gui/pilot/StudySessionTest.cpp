@@ -150,6 +150,11 @@ protected:
         EXPECT_THAT(said("studyTrouble"), HasSubstr(file.path().filename().string()));
         EXPECT_FALSE(pilot->findChild<gui::PilotResult*>()->isVisible());
     }
+    void expectRefusedBeforehand(const std::vector<const char*>& parts) {
+        click(*pilot->findChild<QPushButton*>("startSession"));
+        for (const auto* part : parts) EXPECT_THAT(said("studyTrouble"), HasSubstr(part));
+        EXPECT_FALSE(page().isVisible()) << "no question is asked in vain";
+    }
     void begin() { click(*page().findChild<QPushButton*>("beginSession")); }
     [[nodiscard]] gui::SessionStartPage& page() { return *pilot->findChild<gui::SessionStartPage*>(); }
     [[nodiscard]] std::string trouble() { return page().findChild<QLabel*>("sessionTrouble")->text().toStdString(); }
@@ -209,7 +214,30 @@ TEST_F(StudyInTheWindow, AVirtualParticipantsSessionRunsIsBrokenOffAndGoesOn) {
     EXPECT_EQ(pilot->findChild<QTableWidget*>("studySessions")->rowCount(), 1) << "the same session";
     EXPECT_EQ(cell(0, 5), "complete");
     expectTheResultReopens(headline);
+    expectRefusedBeforehand({"at least 20 h must lie between two sessions", "the next session is possible from"});
     expectABrokenRecordIsNamed();
+}
+
+TEST_F(StudyInTheWindow, WhatIsKnownRefusesBeforeTheChecklist) {
+    RecordProperty("hazard", "H11");
+    ASSERT_NO_FATAL_FAILURE(make({}, Modality::Massager));
+    ASSERT_NO_FATAL_FAILURE(openIt());
+    auto& opened = *pilot->findChild<gui::OpenStudy*>();
+    ASSERT_NO_FATAL_FAILURE(start());
+    click(*pilot->findChild<QPushButton*>("backToStudy"));
+    auto amended = opened.study()->settings();
+    amended.consentVersion = "3";
+    ASSERT_TRUE(opened.study()->amend(amended, "EC-2026-18"));
+    opened.noteChange();
+    expectRefusedBeforehand({"version 3 is in force"});
+    ASSERT_TRUE(opened.study()->consent(code.toStdString(), {"3", opened.study()->today(), "KL"}));
+    opened.noteChange();
+    ASSERT_NO_FATAL_FAILURE(start());
+    click(*pilot->findChild<QPushButton*>("backToStudy"));
+    ASSERT_TRUE(opened.study()->leave(code.toStdString()));
+    opened.noteChange();
+    expectRefusedBeforehand({"has left the study"});
+    EXPECT_TRUE(nothingWasMade());
 }
 
 TEST_F(StudyInTheWindow, ASessionThatWasStoppedForGoodOpensAgainWithItsResult) {
@@ -271,13 +299,7 @@ TEST_F(StudyInTheWindow, AYesStaysThoughTheOperatorGoesBack) {
     page().findChild<QRadioButton*>("heart-yes")->click();
     click(*page().findChild<QPushButton*>("backToStudy"));
     EXPECT_THAT(said("studyTrouble"), HasSubstr("there is no session today"));
-    ASSERT_NO_FATAL_FAILURE(start());
-    answerNoToAll();
-    begin();
-    ASSERT_NO_FATAL_FAILURE(confirmCode());
-    ASSERT_IN_TIME(comesTrue([this] { return !trouble().empty(); }, 20'000));
-    EXPECT_THAT(trouble(), HasSubstr("answered yes to the exclusion checklist today"));
-    EXPECT_THAT(trouble(), HasSubstr("the next session is possible from"));
+    expectRefusedBeforehand({"answered yes to the exclusion checklist today", "the next session is possible from"});
 }
 
 TEST_F(StudyInTheWindow, AYesIsKeptByTheButtonAndByClosingAndSaysSoOnlyThen) {
@@ -299,6 +321,10 @@ TEST_F(StudyInTheWindow, AYesIsKeptByTheButtonAndByClosingAndSaysSoOnlyThen) {
     EXPECT_THAT(said("studyTrouble"), HasSubstr("there is no session today"));
     ASSERT_NO_FATAL_FAILURE(seeList());
 
+    const auto another = study.study()->enrol({}).value().code;
+    ASSERT_TRUE(study.study()->consent(another, {"2", study.study()->today(), "KL"}));
+    study.noteChange();
+    pilot->findChild<QTableWidget*>("participants")->selectRow(1);
     ASSERT_NO_FATAL_FAILURE(yes("epilepsy"));
     before = head();
     study.lend();
