@@ -7,6 +7,7 @@ namespace tacto::gui {
 ParticipantDesk::ParticipantDesk(QObject* parent) : QObject(parent) {
     qRegisterMetaType<PilotScreen>();
     qRegisterMetaType<PilotPrompt>();
+    qRegisterMetaType<FeltPresentation>();
 }
 
 void ParticipantDesk::begin(std::shared_ptr<const Clock> clock) {

@@ -39,7 +39,7 @@ public:
     void show(const PilotScreen& screen) override;
     [[nodiscard]] Result<PilotAnswer> ask(const PilotPrompt& prompt) override;
     void counted(const PilotCounts& counts) override { emit countsChanged(counts); }
-    void delivered(const FeltPresentation& /*felt*/) override {}
+    void delivered(const FeltPresentation& felt) override { emit presented(felt); }
     [[nodiscard]] std::vector<EarlyPress> takeEarly() override;
     void cancel() noexcept override;
     void leave() noexcept override;
@@ -85,6 +85,8 @@ public:
 signals:
     void screenChanged(const tacto::PilotScreen& screen);
     void countsChanged(const tacto::PilotCounts& counts);
+    /// Before the question about it. On simulated devices nobody feels it.
+    void presented(const tacto::FeltPresentation& felt);
     void asked(const tacto::PilotPrompt& prompt, quint64 id);
     void closed(quint64 id);  ///< answered, out of time, stopped or cancelled
     void obstacleChanged(const QString& why);

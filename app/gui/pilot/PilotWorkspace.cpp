@@ -41,7 +41,7 @@ PilotWorkspace::PilotWorkspace(BenchController& controller, QWidget* parent)
       page_(new OperatorPage(pages_)),
       result_(new PilotResult(pages_)),
       side_(new SessionSide(this)),
-      session_(std::make_unique<SessionConduct>(controller, *page_)) {
+      session_(std::make_unique<SessionConduct>(controller, *page_, this)) {
     setObjectName("pilotWorkspace");
     study_.setProfile([&controller] { return controller.profile(); });
     auto* row = rowIn(*this, 0);

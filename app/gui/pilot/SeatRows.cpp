@@ -156,6 +156,9 @@ void SeatRows::showFor(bool person, const QString& lasts) {
             ? QObject::tr("There is one screen: the participant’s window covers it. F2 opens your strip on "
                           "it, and Esc stops from anywhere.")
             : QObject::tr("Their window opens on the screen chosen above; this one stays yours."));
+    if (person && form_.findChild<QWidget*>("blind")->isEnabledTo(&form_))
+        about_->setText(about_->text() +
+                        QObject::tr(" Nothing is felt here: without “Blind” their screen says what it would be."));
 }
 
 ScreenChoice::ScreenChoice(QWidget* parent) : QComboBox(parent) {

@@ -43,6 +43,32 @@ Result<RunOrder> pilotOrder(const PilotStart& start, BenchController& controller
     return order;
 }
 
+/// What the participant's screen says of itself: "rehearsal · simulated".
+QString noteOf(const PilotStart& start) {
+    QStringList notes;
+    if (start.rehearsal) notes << QObject::tr("rehearsal");
+    if (start.simulated()) notes << QObject::tr("simulated");
+    return notes.join(" · ");
+}
+
+/// True if the participant's screen says what they would feel: someone who rehearses on simulated devices feels
+/// nothing, would find no range, and would never see training and test. Never in a study.
+bool saysWhatIsFelt(const PilotStart& start) {
+    return start.rehearsal && start.person && start.simulated() && !start.blind;
+}
+
+QString feltText(const FeltPresentation& felt, bool massager) {
+    if (!(felt.level > 0)) return QObject::tr("felt: nothing");
+    const auto level = [massager](double of) {
+        return massager ? QObject::tr("strength %1").arg(decimalText(of, 2)) : settingText(of, "mA");
+    };
+    const auto where = felt.inInterval == 1 ? QObject::tr("first interval") : QObject::tr("second interval");
+    if (felt.weaker > 0)
+        return QObject::tr("felt: %1 and %2, the stronger in the %3").arg(level(felt.level), level(felt.weaker), where);
+    if (felt.inInterval > 0) return QObject::tr("felt: %1 in the %2").arg(level(felt.level), where);
+    return QObject::tr("felt: %1 every %2").arg(level(felt.level), settingText(felt.interval.count(), "s"));
+}
+
 }  // namespace
 
 SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, QObject* parent)
@@ -62,6 +88,10 @@ SessionConduct::SessionConduct(BenchController& controller, OperatorPage& page, 
     });
     connect(&desk_, &ParticipantDesk::obstacleChanged, this,
             [this](const QString& why) { page_.setObstacle(running_ && start_.person ? why : QString()); });
+    connect(&desk_, &ParticipantDesk::presented, this, [this](const FeltPresentation& felt) {
+        if (window_ && saysWhatIsFelt(start_))
+            window_->setNote(noteOf(start_) + " · " + feltText(felt, start_.massager));
+    });
     connect(&desk_, &ParticipantDesk::countsChanged, this, [this](const PilotCounts& counts) {
         page_.count(counts);
         emit counted(counts);
@@ -199,10 +229,7 @@ void SessionConduct::openWindow() {
     window_->setKeys(start_.keys);
     window_->setButtonAnswers(inputs_.participantAnswers());
     window_->setButtonLabels(inputs_.labels());
-    QStringList notes;
-    if (start_.rehearsal) notes << tr("rehearsal");
-    if (start_.simulated()) notes << tr("simulated");
-    window_->setNote(notes.join(" · "));
+    window_->setNote(noteOf(start_));
     connect(window_.get(), &ParticipantWindow::changed, this, &SessionConduct::changed);
     connect(window_.get(), &ParticipantWindow::closeWanted, this, [this] { pauseFor(kScreenClosed); });
     strip_ = new OperatorStrip;
@@ -306,6 +333,7 @@ void SessionConduct::noteStop(const HeardStop& stop) {
 
 void SessionConduct::show(const PilotScreen& screen) {
     screen_ = screen;
+    if (window_ && saysWhatIsFelt(start_) && screen.state != ScreenState::Rest) window_->setNote(noteOf(start_));
     page_.show(screen);
     if (strip_ != nullptr) strip_->setWhere(page_.whereAndWaits());
     emit screenChanged(screen);

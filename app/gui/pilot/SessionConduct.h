@@ -134,7 +134,7 @@ private:
 
     BenchController& controller_;
     OperatorPage& page_;
-    ParticipantDesk desk_;
+    ParticipantDesk desk_{this};
     SessionInputs inputs_;
     std::unique_ptr<ParticipantWindow> window_;
     OperatorStrip* strip_ = nullptr;  ///< the strip in the window, while there is one

@@ -436,6 +436,41 @@ TEST_F(FaultWhileBlind, NoTextInAnyWindowNamesANumberOfItsTrain) {
     }
 }
 
+TEST_F(RehearsalInTheWindow, OnlyWhereItIsNotBlindTheirScreenSaysWhatWouldBeFelt) {
+    RecordProperty("hazard", "H9");
+    for (const bool blind : {true, false}) {
+        window.findChild<gui::RehearsalPage*>()->findChild<QCheckBox*>("blind")->setChecked(blind);
+        begin(true);
+        auto* theirs = pilot->participantWindow();
+        ASSERT_IN_TIME(comesTrue([&] { return theirs->asking(); }, 20'000));
+        auto* desk = pilot->findChild<gui::ParticipantDesk*>();
+        ASSERT_NE(desk, nullptr);
+        const auto says = [theirs](const char* words) {
+            return std::ranges::any_of(theirs->findChildren<QLabel*>(),
+                                       [&](const QLabel* each) { return each->text().contains(words); });
+        };
+        FeltPresentation felt;
+        felt.level = 2.4;
+        felt.interval = Seconds(0.5);
+        felt.inInterval = 2;
+        desk->delivered(felt);
+        EXPECT_EQ(says("felt: 2.4"), !blind);
+        EXPECT_EQ(says("second interval"), !blind);
+        PilotScreen next;
+        next.state = ScreenState::Dot;
+        desk->show(next);
+        EXPECT_FALSE(says("felt")) << "it was of the trial before";
+        felt.level = 0;
+        desk->delivered(felt);
+        EXPECT_EQ(says("felt: nothing"), !blind);
+        window.controller().stop("operator (signal)");
+        ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
+        if (!blind) continue;
+        click(*pilot->findChild<QPushButton*>("anotherRehearsal"));
+        std::filesystem::remove_all(folder.path() / "study");
+    }
+}
+
 TEST_F(RehearsalInTheWindow, AScreenThatGoesIsAPauseUntilTheWindowIsSeatedAgain) {
     RecordProperty("hazard", "H2");
     begin(true);
