@@ -97,6 +97,16 @@ TEST_F(SlidingFinger, IsNotFeltWhileAStreamIsSilent) {
     EXPECT_EQ(te_fault(state_.get(), -1), TE_FAULT_FUTURE);
 }
 
+TEST_F(SlidingFinger, TouchesAnewAfterASilence) {
+    const auto lightly = [](auto&, auto& force, auto&) { force = {0.07F}; };
+    slide(3000);
+    slide(300, lightly);
+    EXPECT_TRUE(state_->latest.contact) << "contact goes on down to 0.05 N";
+    slide(300, [](auto&, auto& force, auto&) { force.clear(); });
+    slide(300, lightly);
+    EXPECT_FALSE(state_->latest.contact) << "and begins at 0.1 N";
+}
+
 TEST_F(SlidingFinger, IsNotFeltWhileASensorRepeatsItself) {
     slide(3000);
     std::vector<std::vector<float>> kept;
