@@ -412,11 +412,14 @@ private:
             return {};
         };
         std::vector<double> before(width, kNaN);
+        std::uint64_t first = 0;  // slot of the record
         const auto put = [&](std::uint64_t slot, const double* values) -> Result<void> {
-            if (auto moved = moveTo(slot / planned.perRecord); !moved) return moved;
+            if (slot - first >= planned.perRecord) {
+                if (auto moved = moveTo(slot / planned.perRecord); !moved) return moved;
+                first = record * planned.perRecord;
+            }
             for (std::size_t c = 0; c < width; ++c)
-                putDigital(piece, c * planned.perRecord + slot % planned.perRecord,
-                           planned.signals[c].scale.digital(values[c]));
+                putDigital(piece, c * planned.perRecord + (slot - first), planned.signals[c].scale.digital(values[c]));
             return {};
         };
         SlotFinder finder(planned.slotRate_hz(record_s_), rateOf(*planned.stream));
@@ -496,8 +499,8 @@ private:
                 written.channels.push_back({.name = stream.channels[c].name,
                                             .unit = stream.channels[c].unit,
                                             .exact = scale.exact,
-                                            .step = scale.exact ? kNaN : scale.step(),
-                                            .maxError = scale.exact ? 0 : 0.5 * scale.step(),
+                                            .step = scale.exact ? kNaN : scale.step,
+                                            .maxError = scale.exact ? 0 : 0.5 * scale.step,
                                             .absent = stream.channels[c].absent + infinite});
                 if (infinite > 0)
                     report_.leftOut.push_back(

@@ -56,13 +56,9 @@ double recordDuration_s(std::span<const double> rates_hz, double maxRecord) {
     return best_s;
 }
 
-double Scale::step() const noexcept {
-    return (high - low) / (static_cast<double>(digitalMax) - static_cast<double>(digitalMin));
-}
-
 int Scale::digital(double value) const noexcept {
     if (!std::isfinite(value)) return digitalMin;
-    const double steps = (value - low) / step();
+    const double steps = (value - low) / step;
     const double most = static_cast<double>(digitalMax) - static_cast<double>(digitalMin);
     // std::round() is a call of a library.
     return digitalMin + static_cast<int>(std::clamp(steps, 1.0, most) + 0.5);
@@ -98,6 +94,7 @@ std::optional<Scale> scaleFor(double least, double most, bool whole, int bits) {
     }
     scale.physicalMin = *bottom;
     scale.physicalMax = *top;
+    scale.step = (scale.high - scale.low) / steps;
     return scale;
 }
 

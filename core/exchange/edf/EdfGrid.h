@@ -23,11 +23,11 @@ struct Scale {
     int digitalMin = 0, digitalMax = 0;    ///< the lowest means absent
     bool exact = false;                    ///< whole numbers with a step of 1
 
-    [[nodiscard]] double step() const noexcept;  ///< between two values
     /// Returns the nearest digital value; digitalMin for what is not finite.
     [[nodiscard]] int digital(double value) const noexcept;
 
     double low = 0, high = 0;  ///< the physical limits as numbers
+    double step = 1;           ///< between two values
 };
 
 /// Returns the scale for values from `least` to `most` (NaN: there are none) in 16 or 24 bits; nothing if the header
