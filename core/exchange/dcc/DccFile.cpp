@@ -46,7 +46,14 @@ xml_node below(const xml_node& node, std::string_view first, Names... rest) {
     else
         return below(childOf(node, first), rest...);
 }
-std::string textOf(const xml_node& node) { return std::string(trimmed(node.text().get())); }
+/// All of an element's text. A comment within it, which a signature does not cover, does not end it.
+std::string wholeText(const xml_node& node) {
+    std::string text;
+    for (const auto& each : node.children())
+        if (each.type() == pugi::node_pcdata || each.type() == pugi::node_cdata) text += each.value();
+    return text;
+}
+std::string textOf(const xml_node& node) { return std::string(trimmed(wholeText(node))); }
 
 /// The English text of <name>, <description> and the like.
 std::string textInEnglish(const xml_node& node) {
@@ -149,7 +156,8 @@ private:
     /// Numbers as D-SI allows them: decimal, with or without exponent, or NaN.
     [[nodiscard]] Result<std::vector<double>> numbers(const xml_node& node, std::string_view what) const {
         std::vector<double> all;
-        for (const auto word : wordsOf(node.text().get())) {
+        const auto text = wholeText(node);
+        for (const auto word : wordsOf(text)) {
             const auto number = word == "NaN" ? std::optional(kNaN) : decimal(word);
             if (!number)
                 return fail(ErrorCode::ParseError, "{} of \"{}\" is \"{}\"; a decimal number or NaN is expected", what,
@@ -192,7 +200,8 @@ private:
     }
 
     [[nodiscard]] Result<void> unit(const xml_node& node, DccQuantity& quantity) const {
-        const auto words = wordsOf(node.text().get());
+        const auto text = wholeText(node);
+        const auto words = wordsOf(text);
         if (words.empty()) return fail(ErrorCode::ParseError, "the unit of \"{}\" is missing", shown(name_));
         if (words.size() != 1 && words.size() != quantity.values.size())
             return fail(ErrorCode::ParseError, "\"{}\" has {} values and {} units; as many, or one, are expected",
@@ -236,7 +245,8 @@ private:
             if (auto done = read("coverageProbability", "the coverage probability", quantity.probabilities); !done)
                 return failure(done);
         }
-        const auto words = wordsOf(inside(form->node, "distribution").text().get());
+        const auto distribution = wholeText(inside(form->node, "distribution"));
+        const auto words = wordsOf(distribution);
         if (!words.empty()) quantity.distribution = words.front();
         return judge(quantity);
     }
@@ -328,7 +338,8 @@ Result<void> checkBytes(std::string_view bytes) {
 Result<DccFile> readFrom(std::string_view bytes) {
     if (auto sound = checkBytes(bytes); !sound) return failure(sound);
     pugi::xml_document document;
-    const auto parsed = document.load_buffer(bytes.data(), bytes.size(), pugi::parse_default | pugi::parse_declaration,
+    const auto parsed = document.load_buffer(bytes.data(), bytes.size(),
+                                             pugi::parse_default | pugi::parse_declaration | pugi::parse_ws_pcdata,
                                              pugi::encoding_utf8);
     if (!parsed) return fail(ErrorCode::ParseError, "it is no XML: {} at byte {}", parsed.description(), parsed.offset);
     const std::string_view encoding = document.first_child().type() == pugi::node_declaration
