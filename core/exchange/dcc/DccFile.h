@@ -28,17 +28,17 @@ struct DccItem {
 
 /// A value, or a list of them. NaN: absent, as D-SI writes it.
 struct DccQuantity {
-    std::vector<std::string> refTypes;
-    std::string name;
-    std::string within;  ///< names of the result and the lists that it stands in, from outside
-    std::size_t list;    ///< quantities of the same list belong together, value by value
-    std::string unit;    ///< of D-SI, "\milli\volt"
-    std::vector<double> values;
+    std::vector<std::string> refTypes{};
+    std::string name{};
+    std::string within{};  ///< names of the result and the lists that it stands in, from outside
+    std::size_t list = 0;  ///< quantities of the same list belong together, value by value
+    std::string unit{};    ///< of D-SI, "\milli\volt"
+    std::vector<double> values{};
     /// Expanded uncertainty in `unit` and its coverage factor for each value; empty: not stated. A standard uncertainty
     /// has the factor 1.
-    std::vector<double> uncertainties, coverageFactors;
-    std::vector<double> probabilities;  ///< of coverage; empty for a standard uncertainty
-    std::string distribution;           ///< empty: not stated
+    std::vector<double> uncertainties{}, coverageFactors{};
+    std::vector<double> probabilities{};  ///< of coverage; empty for a standard uncertainty
+    std::string distribution{};           ///< empty: not stated
     [[nodiscard]] bool is(std::string_view refType) const;
 };
 

@@ -121,8 +121,9 @@ Result<DccSignature> checkDccSignature(std::string_view xml) {
         xmlReadMemory(xml.data(), static_cast<int>(xml.size()), "certificate.xml", "UTF-8", kQuiet));
     auto* root = document ? xmlDocGetRootElement(document.get()) : nullptr;
     if (root == nullptr) return fail(ErrorCode::ParseError, "it is no XML that libxml2 reads");
-    static const std::array<const xmlChar*, 4> kIds{BAD_CAST "Id", BAD_CAST "ID", BAD_CAST "id", nullptr};
-    xmlSecAddIDs(document.get(), root, const_cast<const xmlChar**>(kIds.data()));
+    const auto asXml = [](const char* name) { return reinterpret_cast<const xmlChar*>(name); };
+    std::array<const xmlChar*, 4> ids{asXml("Id"), asXml("ID"), asXml("id"), nullptr};
+    xmlSecAddIDs(document.get(), root, ids.data());
     DccSignature found;
     for (auto* node = root->children; node != nullptr; node = node->next) {
         if (xmlSecCheckNodeName(node, xmlSecNodeSignature, xmlSecDSigNs) == 0) continue;
