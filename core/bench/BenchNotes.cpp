@@ -29,13 +29,17 @@ Result<void> BenchNotes::profile(const Profile& previous, const Profile& next) c
     const auto before = toJson(previous), after = toJson(next);
     auto changed = nlohmann::json::array();
     for (const auto& [section, value] : after.items()) {
-        if (before.value(section, nlohmann::json()) == value) continue;
-        if (!value.is_object()) changed.push_back(section);
-        for (const auto& [key, part] : value.items()) {
-            if (value.is_object() && before.at(section).value(key, nlohmann::json()) != part)
-                changed.push_back(fmt::format("{}.{}", section, key));
+        const auto earlier = before.value(section, nlohmann::json());
+        if (earlier == value) continue;
+        if (!value.is_object() || !earlier.is_object()) {  // an electrode may be described only before or after
+            changed.push_back(section);
+            continue;
         }
+        for (const auto& [key, part] : value.items())
+            if (earlier.value(key, nlohmann::json()) != part) changed.push_back(fmt::format("{}.{}", section, key));
     }
+    for (const auto& [section, value] : before.items())
+        if (!after.contains(section)) changed.push_back(section);
     if (changed.empty()) return {};
     const auto noted = session_->event(clock_.now(), "settings", {{"changed", changed}, {"profile", after}});
     return noted ? Result<void>{} : failure(noted);
