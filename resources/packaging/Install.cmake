@@ -54,8 +54,6 @@ install(FILES ${PROJECT_SOURCE_DIR}/resources/udev/70-tactoscope.rules DESTINATI
 set(desktop ${PROJECT_SOURCE_DIR}/resources/desktop/io.github.tactoscope.Tactoscope)
 install(FILES ${desktop}.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 install(FILES ${desktop}.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
-install(FILES ${PROJECT_SOURCE_DIR}/resources/packaging/lintian-overrides
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides RENAME tactoscope)
 install(FILES ${desktop}.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
 install(CODE "execute_process(COMMAND \"${PROJECT_SOURCE_DIR}/resources/packaging/documents\" \"${CMAKE_RUNTIME_OUTPUT_DIRECTORY}\"
                                       \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\" COMMAND_ERROR_IS_FATAL ANY)")
