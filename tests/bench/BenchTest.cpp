@@ -319,7 +319,7 @@ TEST_F(BenchTest, WhatNoFingertipGivesIsTheSameForTheBenchAsForItsFeatures) {
     for (const auto& [stream, more, standing] :
          {Knock{0, 3000, FingerStanding::Fresh}, Knock{0, 6000, FingerStanding::Implausible},
           Knock{1, 2e7, FingerStanding::Implausible}, Knock{2, 250, FingerStanding::Implausible}}) {
-        wrapSensor_ = [stream = stream, more = more](std::unique_ptr<TactileSensor> inner) {
+        wrapSensor_ = [stream, more](std::unique_ptr<TactileSensor> inner) {
             return std::make_unique<KnockedFinger>(std::move(inner), stream, more, 1.0);
         };
         open({"sim:finger?material=P60&force=3N&stroke=60s"}, {Role::Sensor, Role::Stimulator});
