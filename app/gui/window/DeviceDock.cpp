@@ -235,6 +235,13 @@ void DeviceDock::list() {
     describe();
 }
 
+std::vector<int> DeviceDock::rowEdges() const {
+    std::vector<int> edges;
+    for (int i = 0; i < tree_->topLevelItemCount(); ++i)
+        edges.push_back(heightDownTo(*tree_->viewport(), tree_->visualItemRect(tree_->topLevelItem(i)).bottom() + 1));
+    return edges;
+}
+
 void DeviceDock::fitNames() {
     const int beside = kBesideName + tree_->style()->pixelMetric(QStyle::PM_IndicatorWidth, nullptr, tree_);
     const int width = std::max(1, tree_->columnWidth(0) - beside);

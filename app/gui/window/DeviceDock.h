@@ -23,6 +23,7 @@ class DeviceDock final : public FoldingDock {
 public:
     DeviceDock(BenchController& controller, const CalibrationBook& calibrations, QWidget* parent);
     void refresh(const Telemetry& telemetry);
+    [[nodiscard]] std::vector<int> rowEdges() const override;
 
 signals:
     void simulatedBenchRequested();  ///< asks for a simulated bench with flaws and faults

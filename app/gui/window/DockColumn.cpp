@@ -7,6 +7,8 @@
 #include <QTimer>
 #include <QToolButton>
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "app/gui/theme/Icons.h"
@@ -23,8 +25,19 @@ constexpr int kFewLines = 88;  ///< least height of a dock that makes room for t
 
 QString settingOf(int workspace) { return QString("docks/collapsed%1").arg(workspace); }
 
-int leastOf(const QDockWidget& dock, int wanted) {
-    return std::max(std::min(wanted, scaledPx(kFewLines)), dock.minimumSizeHint().height());
+constexpr std::size_t kFewRows = 3;  ///< of a list, in place of kFewLines
+
+int leastOf(const FoldingDock& dock) {
+    const auto rows = dock.rowEdges();
+    const int few = rows.empty() ? scaledPx(kFewLines) : rows[std::min(kFewRows, rows.size()) - 1];
+    return std::max(std::min(dock.wantedHeight(), few), dock.minimumSizeHint().height());
+}
+
+/// Returns how much of `height` shows only a part of a row.
+int cutRow(const FoldingDock& dock, int height) {
+    const auto rows = dock.rowEdges();
+    const auto next = std::ranges::upper_bound(rows, height);
+    return next == rows.begin() || next == rows.end() ? 0 : height - *std::prev(next);
 }
 
 QString settingOf(const QString& view, const FoldingDock& dock) {
@@ -232,7 +245,7 @@ void DockColumn::apply() {
 }
 
 /// Each open dock first gets a few lines. Then the docks get what they want, the first one first; the last one also
-/// gets the rest. If no dock is cut off, nothing changes.
+/// gets the rest, or gives it to the one above if a row would be cut. If no dock is cut off, nothing changes.
 void DockColumn::share() {
     QList<QDockWidget*> all;
     QList<int> heights;
@@ -245,19 +258,26 @@ void DockColumn::share() {
         const bool here = window_.dockWidgetArea(dock) == Qt::RightDockWidgetArea && !dock->isFloating();
         if (!here || !dock->isVisible()) continue;
         all << dock;
-        heights << (dock->folded() ? dock->maximumHeight() : leastOf(*dock, dock->wantedHeight()));
+        heights << (dock->folded() ? dock->maximumHeight() : leastOf(*dock));
         left -= heights.back() + between;
         if (dock->folded()) continue;
         last = dock;
         cut = cut || dock->height() < dock->wantedHeight();
     }
     if (!cut) return;
+    std::optional<qsizetype> above;
     for (qsizetype i = 0; i < all.size(); ++i) {
         const auto* dock = static_cast<FoldingDock*>(all[i]);
         if (dock->folded()) continue;
         const int more = std::max(0, dock == last ? left : std::min(dock->wantedHeight() - heights[i], left));
         heights[i] += more;
         left -= more;
+        if (dock == last && above) {
+            const int part = cutRow(*dock, heights[i]);
+            heights[i] -= part;
+            heights[*above] += part;
+        }
+        above = i;
     }
     window_.resizeDocks(all, heights, Qt::Vertical);
 }

@@ -103,9 +103,17 @@ void FoldingDock::limitHeight() {
 
 int FoldingDock::wantedHeight() const {
     if (inside_ == nullptr || inside_->layout() == nullptr) return sizeHint().height();
+    return heightBeside() + wholeHeightAt(*inside_->layout(), inside_->width());
+}
+
+/// The height of header and margins.
+int FoldingDock::heightBeside() const {
     const auto margins = widget()->layout()->contentsMargins();
-    return header_->height() + 1 + margins.top() + margins.bottom() +
-           wholeHeightAt(*inside_->layout(), inside_->width());
+    return header_->height() + 1 + margins.top() + margins.bottom();
+}
+
+int FoldingDock::heightDownTo(const QWidget& part, int y) const {
+    return heightBeside() + part.mapTo(inside_, QPoint(0, y)).y();
 }
 
 void FoldingDock::noteContent() {

@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QToolButton>
 #include <optional>
+#include <vector>
 
 namespace tacto::gui {
 
@@ -25,6 +26,8 @@ public:
     [[nodiscard]] Room room() const { return room_; }
     /// The height at which the whole content is visible.
     [[nodiscard]] int wantedHeight() const;
+    /// The heights at which a row of a list ends, so that none is cut; empty for content without rows.
+    [[nodiscard]] virtual std::vector<int> rowEdges() const { return {}; }
     void fold(bool folded);
     [[nodiscard]] bool folded() const { return folded_; }
     [[nodiscard]] const QString& iconName() const { return icon_; }
@@ -38,8 +41,11 @@ signals:
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
+    /// The height at which the content is visible from its top down to `y` of `part`.
+    [[nodiscard]] int heightDownTo(const QWidget& part, int y) const;
 
 private:
+    [[nodiscard]] int heightBeside() const;
     void dress();
     void limitHeight();
     void noteContent();

@@ -441,6 +441,39 @@ TEST_F(Layout, BesideTheOscilloscopeMeasurementsHaveRoomInASmallWindowToo) {
     EXPECT_TRUE(dock("measurementDock").folded()) << "a person's choice is kept";
 }
 
+TEST_F(Layout, TheDevicesShowWholeRowsInASmallWindow) {
+    open();
+    visit(0);
+    auto& devices = dock("deviceDock");
+    auto* tree = devices.findChild<QTreeWidget*>();
+    ASSERT_FALSE(devices.folded());
+    ASSERT_FALSE(dock("exposureDock").folded());
+    constexpr int kGap = 4;  // of a row, above its text
+    const auto rows = [&] {
+        int whole = 0, cut = 0;
+        for (int i = 0; i < tree->topLevelItemCount(); ++i) {
+            const auto row = tree->visualItemRect(tree->topLevelItem(i));
+            const auto seen = tree->viewport()->visibleRegion().boundingRect().intersected(row);
+            whole += seen.height() == row.height() ? 1 : 0;
+            cut += seen.height() > kGap && seen.height() < row.height() ? 1 : 0;
+        }
+        return std::pair(whole, cut);
+    };
+    const auto said = [&] { return fmt::format("{} whole and {} cut", rows().first, rows().second); };
+    const auto allWhole = [&] { return rows().first >= 3 && rows().second == 0; };
+    for (const int height : {720, 768, 900, 1080}) {
+        window.resize(1280, height);
+        EXPECT_IN_TIME(comesTrue(allWhole, 3000)) << "disarmed, " << height << ": " << said();
+    }
+    arm();
+    deliver();
+    for (const int height : {1080, 900, 768, 740, 720}) {
+        window.resize(1280, height);
+        EXPECT_IN_TIME(comesTrue(allWhole, 3000)) << "delivering, " << height << ": " << said();
+        shot(window, QString("devices-rows-%1").arg(height));
+    }
+}
+
 TEST_F(Layout, TheNearestLimitStandsFirstAndTheAreaCanBeEnteredThere) {
     RecordProperty("hazard", "H9");
     open();
