@@ -20,6 +20,7 @@
 #include "app/gui/sessions/SessionsWorkspace.h"
 #include "core/acquisition/Recording.h"
 #include "core/session/SessionReader.h"
+#include "core/session/SessionWriter.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/Person.h"
 #include "tests/support/InTime.h"
@@ -196,6 +197,32 @@ TEST_F(Recorded, IsExportedByOneDialogThatSaysWhatBecomesOfIt) {
     place->setText("/elsewhere/out.h5");
     click(*folderButton);
     EXPECT_THAT(says->text().toStdString(), HasSubstr(folder.path().string())) << "where it was exported to";
+}
+
+TEST_F(Recorded, GoesOutAsACertificateOnlyIfItIsACalibration) {
+    RecordProperty("hazard", "H9");
+    for (const std::string protocol : {"live", "stimulator-calibration"}) {
+        const auto path = folder.path() / (protocol + ".tacto");
+        SessionAbout about;
+        about.protocol = protocol;
+        about.wallStart = "2026-11-30T12:00:00Z";
+        const VirtualClock clock;
+        ASSERT_TRUE(SessionWriter::create(path, about, clock).value()->close());
+        gui::ExportDialog dialog(path, nullptr);
+        dialog.show();
+        ASSERT_IN_TIME(comesTrue([&] { return dialog.findChild<QPushButton*>("exportBegin")->isEnabled(); }));
+        auto* form = dialog.findChild<gui::FieldForm*>();
+        form->set("format", "dcc");
+        const bool offered = form->text("format") == "dcc";
+        EXPECT_EQ(offered, protocol == "stimulator-calibration");
+        if (!offered) continue;
+        EXPECT_TRUE(dialog.findChild<QLineEdit*>("exportPlace")->text().endsWith("stimulator-calibration.xml"));
+        EXPECT_EQ(faultsOf(dialog), "");
+        click(*dialog.findChild<QPushButton*>("exportBegin"));
+        const auto* says = dialog.findChild<QLabel*>("exportSays");
+        ASSERT_IN_TIME(comesTrue([&] { return says->text().contains("no new calibration"); }))
+            << says->text().toStdString();
+    }
 }
 
 TEST_F(Recorded, ReplaysAsARecording) {
