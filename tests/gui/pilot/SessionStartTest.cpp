@@ -38,7 +38,7 @@ protected:
         who = study->enrol(enrolled).value();
         ASSERT_TRUE(study->consent(who.code, {study->settings().consentVersion, study->today(), "KL"}));
         page.resize(1000, 640);
-        page.prepare(*study, who);
+        EXPECT_EQ(page.prepare(*study, who), "");
         page.show();
         ASSERT_IN_TIME(QTest::qWaitForWindowExposed(&page));
     }
@@ -93,7 +93,7 @@ TEST_F(SessionStart, EveryQuestionIsAnsweredAndNoneBeforehand) {
     EXPECT_EQ(yes.error().code, kGateRefused);
     EXPECT_FALSE(begin().isEnabled());
     EXPECT_TRUE(whyNot->text().contains("yes"));
-    page.prepare(*study, who);
+    EXPECT_EQ(page.prepare(*study, who), "");
     EXPECT_TRUE(checklist->answers().empty()) << "each session asks anew";
     EXPECT_TRUE(page.start().confirmsCode) << "on their own screen";
 }
@@ -130,7 +130,7 @@ TEST_F(SessionStart, AYesChangedToNoStaysOneUntilItIsTickedAsASlip) {
     test::click(*endDay);
     EXPECT_EQ(ends, 1);
     EXPECT_EQ(begins, 0);
-    page.prepare(*study, who);
+    EXPECT_EQ(page.prepare(*study, who), "");
     EXPECT_FALSE(slip->isVisible());
     EXPECT_FALSE(endDay->isVisible());
 }
@@ -199,7 +199,7 @@ TEST_F(SessionStart, OneWhoseRecordIsNotWholeIsOfferedToBeEndedAlone) {
     const auto begun = study->beginSession(request);
     ASSERT_TRUE(begun) << begun.error().message;
     std::ofstream(begun->path) << "no session";
-    page.prepare(*study, who);
+    EXPECT_EQ(page.prepare(*study, who), "");
     EXPECT_TRUE(page.findChild<gui::UnfinishedOffer*>()->asks());
     const auto says = page.findChild<QLabel*>("unfinishedSays")->text().toStdString();
     EXPECT_THAT(says, HasSubstr("Session 1 was interrupted"));
