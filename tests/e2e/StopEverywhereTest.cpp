@@ -65,6 +65,7 @@ std::map<std::string, int> placesThatOpenDialogs() {
 constexpr std::string_view kShareAPlace[] = {"Folder of a new study", "Definitions and limits"};
 /// Places that this test leaves out: the file, and the similar dialog that is tested instead.
 constexpr std::pair<const char*, const char*> kTriedByAnother[] = {
+    {"CertificateDialog", "which digital certificate to read: the same question as for a capture"},
     {"CloseQuestion", "whether a run is to end: the same box as for a script that is not saved"},
     {"StudyList", "releasing a study after a serious event: the same frame as for the event"},
     {"StudyList", "whether to go back to an older ledger: the same frame as for a participant who leaves"},

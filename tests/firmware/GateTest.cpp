@@ -310,6 +310,43 @@ TEST(EncoderGate, RefusesWhateverTheBenchsGateRefuses) {
     EXPECT_GT(close, count / 5);
 }
 
+TEST(EncoderGate, CountsATrainUntilItsEndHasLeftTheWindow) {
+    RecordProperty("hazard", "H1");
+    Dice dice(1);
+    int tried = 0;
+    for (int k = 0; k < 1000; ++k) {
+        Rig rig(dice);
+        const te_profile& p = rig.profile;
+        // A train that takes `share` of the 5 s limit, at the worst of its errors.
+        const auto trainOf = [&](std::uint32_t pulses, double share) {
+            te_train train{};
+            train.onset_ns = rig.now_ns();
+            train.width_us = 200;
+            train.pulses = pulses;
+            train.pulse_hz = 50;
+            train.interval_s = 10;
+            const double square = share * 5e-6 * std::pow(double{p.ceiling_rms_ma}, 2);
+            const double seconds = pulses * 400e-6 * (1 + double{p.width_error});
+            const double peak_A = std::sqrt(square / seconds) / (1 + double{p.amplitude_error});
+            const double volts = peak_A * double{p.load_low_ohm};
+            train.amplitude = static_cast<float>(p.current_source != 0 ? 1e3 * peak_A : volts);
+            train.command_v = static_cast<float>(volts);
+            return train;
+        };
+        te_gate gate{};
+        const te_train first = trainOf(24, 0.8);
+        if (te_train_judge(&p, &gate, &first, rig.now_ns()) != TE_ACCEPTED) continue;
+        te_train_book(&p, &gate, &first, rig.now_ns());
+        rig.waitUntil(rig.now_ns() + static_cast<std::int64_t>(dice.between(5, 5.8) * 1e9));
+        const te_train second = trainOf(1, 0.3);
+        const te_gate empty{};
+        if (te_train_judge(&p, &empty, &second, rig.now_ns()) != TE_ACCEPTED) continue;
+        ++tried;
+        EXPECT_EQ(te_train_judge(&p, &gate, &second, rig.now_ns()), TE_ABOVE_RMS);
+    }
+    EXPECT_GT(tried, 50);
+}
+
 TEST(EncoderGate, LetsNothingOutWhileASensorFails) {
     RecordProperty("hazard", "H7");
     const auto count = trials<std::uint64_t>({.local = 400, .ci = 4'000, .campaign = 100'000});

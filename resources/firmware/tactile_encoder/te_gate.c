@@ -64,8 +64,9 @@ static float booked(const struct te_gate* gate, int64_t since_ns) {
     return sum;
 }
 
-static int64_t window_begin(const struct te_profile* p, const struct te_train* train, int64_t now_ns) {
-    return now_ns - te_ns(WINDOW_S / (1.0F - p->interval_error) + MORE_S + duration_s(p, train));
+/* A train that ended before this shares no window with one at `now_ns`. */
+static int64_t window_begin(const struct te_profile* p, int64_t now_ns) {
+    return now_ns - te_ns(WINDOW_S / (1.0F - p->interval_error) + MORE_S);
 }
 
 /* The 5 s RMS at `load_ohm`: of this train alone again and again, or with what was booked. */
@@ -74,7 +75,7 @@ static float worst_rms_ma(const struct te_profile* p, const struct te_gate* gate
     const float one = square_of(p, train, p->load_low_ohm);
     const float shortest_s = train->interval_s * (1.0F - p->interval_error);
     const float trains = (float)(uint32_t)(WINDOW_S / shortest_s) + 1.0F;
-    const float together = one + booked(gate, window_begin(p, train, now_ns));
+    const float together = one + booked(gate, window_begin(p, now_ns));
     return rms_ma(trains * one > together ? trains * one : together) * ROUNDING;
 }
 
@@ -114,8 +115,7 @@ enum te_refusal te_train_judge(const struct te_profile* p, const struct te_gate*
     if (!(rms < p->ceiling_rms_ma)) return TE_ABOVE_RMS;
     if (!(p->current_source || rms * p->load_low_ohm / 500.0F <= TE_MAX_RMS_500_MA)) return TE_ABOVE_RMS;
     if (gate->used && !(now_ns >= gate->t_ns[(gate->first + gate->count - 1U) % TE_BOOKED])) return TE_METER;
-    return gate->count < TE_BOOKED || gate->t_ns[gate->first] <= window_begin(p, train, now_ns) ? TE_ACCEPTED
-                                                                                                : TE_METER;
+    return gate->count < TE_BOOKED || gate->t_ns[gate->first] <= window_begin(p, now_ns) ? TE_ACCEPTED : TE_METER;
 }
 
 void te_train_book(const struct te_profile* p, struct te_gate* gate, const struct te_train* train, int64_t now_ns) {
@@ -125,7 +125,7 @@ void te_train_book(const struct te_profile* p, struct te_gate* gate, const struc
         --gate->count;
     }
     at = (gate->first + gate->count) % TE_BOOKED;
-    gate->t_ns[at] = now_ns;
+    gate->t_ns[at] = now_ns + te_ns(duration_s(p, train));
     gate->square[at] = square_of(p, train, p->load_low_ohm);
     ++gate->count;
     gate->used = 1U;

@@ -121,7 +121,7 @@ struct te_series {
 };
 
 struct te_gate {
-    int64_t t_ns[TE_BOOKED];
+    int64_t t_ns[TE_BOOKED]; /* by when each train has ended */
     float square[TE_BOOKED]; /* A2 s at the smallest load */
     uint32_t first, count;
     uint32_t used;
