@@ -290,6 +290,7 @@ TEST_F(ScienceModeThreads, FromApprovalToTheWireTakesLessThan200Microseconds) {
         took.push_back(atWire - begin);
         ASSERT_IN_TIME(untilDone());
     }
+    line_->onWrite([] {});  // the device is still written to when it is closed
     std::ranges::nth_element(took, took.begin() + 100);
     RecordProperty("median_ns", std::to_string(took[100].count()));
     EXPECT_IN_TIME(took[100] < microseconds(200));

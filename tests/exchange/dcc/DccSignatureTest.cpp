@@ -130,14 +130,15 @@ TEST_F(DccSignatures, AreRefusedWhenAByteIsAltered) {
         EXPECT_EQ(readOf(*file), readOf(*original)) << changed.substr(at - 20, 60);
     }
     EXPECT_GT(read, 0);
-    // Any bytes anywhere: refused, or the same is read, as when a blank between attributes became another.
+    // Any bytes anywhere: refused, unsigned, or the same is read, as when a blank between attributes became another.
     for (int trial = 0; trial < trials<int>({.local = 1000, .ci = 5000, .campaign = 100'000}); ++trial) {
         auto changed = whole;
         for (auto count = 1 + random() % 3; count > 0; --count)
             changed[random() % changed.size()] = static_cast<char>(random());
         const auto file = dccFrom(changed, "file.xml");
         if (!file) continue;
-        EXPECT_EQ(readOf(*file), readOf(*original));
+        // Without its signature a file is another one, and said to be unsigned.
+        EXPECT_TRUE(!file->signature.there || readOf(*file) == readOf(*original)) << readOf(*file);
         EXPECT_TRUE(file->signature.there || changed.find("<ds:Signature") == std::string::npos ||
                     changed.find("xmlns:ds=\"http://www.w3.org/2000/09/xmldsig#\"") == std::string::npos);
     }

@@ -37,6 +37,7 @@ protected:
         enrolled.virtualSeed = virtualSeed;
         who = study->enrol(enrolled).value();
         ASSERT_TRUE(study->consent(who.code, {study->settings().consentVersion, study->today(), "KL"}));
+        who = study->participants().front();
         page.resize(1000, 640);
         EXPECT_EQ(page.prepare(*study, who), "");
         page.show();
