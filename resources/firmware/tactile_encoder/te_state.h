@@ -92,23 +92,21 @@ struct te_index {
     float rest_mean, rest_level;
 };
 
-/* Whether one value repeats itself. */
-struct te_still {
-    int64_t since_ns;
-    uint32_t last, run, changed, repeated;
+/* How often a value comes again, and how often another one does. */
+struct te_chance {
+    uint32_t repeated, changed;
 };
 
-/* Whether whole samples do, with any period up to TE_PERIODS. */
+/* Whether a value, or a block of up to TE_PERIODS, comes again and again. */
 struct te_repeat {
-    uint32_t sample[TE_PERIODS];
-    uint32_t seen, lag;
-    struct te_still still;
+    uint16_t sample[TE_PERIODS];     /* of each value 16 mixed bits */
+    uint32_t lags[TE_PERIODS / 32U]; /* bit i: each value of this run is the one i + 1 before it */
+    uint32_t seen, run;
+    int64_t since_ns;
+    uint32_t held;              /* how long the value stands */
+    struct te_chance near, far; /* of values one and TE_PERIODS apart */
 };
-
-struct te_health {
-    int64_t newest_ns;
-    struct te_repeat repeat;
-};
+#define TE_WATCHED (TE_AXES + 2U) /* each axis, force, all taxels together */
 
 struct te_command {
     float amplitude_v, interval_s;
@@ -138,8 +136,8 @@ struct te_state {
     uint32_t pending_front, pending_count;
     struct te_index index;
     struct te_reading latest;
-    struct te_health health[TE_STREAMS];
-    struct te_still axis[TE_AXES];
+    int64_t newest_ns[TE_STREAMS];
+    struct te_repeat repeat[TE_WATCHED];
     int64_t implausible_ns;
     struct te_series series;
     struct te_gate gate;
