@@ -41,7 +41,7 @@ public:
             still_[s].feed(blocks[s]);
             for (std::size_t i = 0; i < blocks[s].values.size(); ++i) {
                 if (!(std::abs(blocks[s].values[i]) <= mostPlausible(streams_[s].unit)))
-                    implausible_ = blocks[s].t_s[i / streams_[s].channels];
+                    implausible_ = std::max(implausible_, blocks[s].t_s[i / streams_[s].channels]);
             }
         }
         chain_->feed(blocks, to.frames);

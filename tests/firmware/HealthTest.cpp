@@ -210,6 +210,25 @@ TEST_F(SlidingFinger, IsNotFeltUntilTheBoardHasRested) {
     }
 }
 
+TEST_F(SlidingFinger, RestsHoweverItsClockJumps) {
+    RecordProperty("hazard", "H1");
+    ASSERT_EQ(te_init(state_.get(), &profile_), TE_ACCEPTED);
+    slide(1000);
+    now_ns_ += 3'600'000 * kMillisecond_ns;  // a clock that is set
+    EXPECT_EQ(slide(5000), 0);
+    EXPECT_EQ(fault(), TE_FAULT_RESTING);
+    slide(2000);
+    EXPECT_EQ(fault(), kNone) << "a second of the jump counts";
+}
+
+TEST_F(SlidingFinger, IsNotFeltAfterAnImpossibleReadingWithAnOlderOneBehindIt) {
+    slide(3000);
+    slide(10, [](auto&, auto& force, auto&) { force = {201}; });
+    const float older[] = {std::numeric_limits<float>::quiet_NaN(), 1, 1, 1};
+    te_samples(state_.get(), TE_TAXEL_ARRAY, now_ns_ - 95 * kMillisecond_ns, 0, older, 1);
+    EXPECT_EQ(fault(50 * kMillisecond_ns), TE_FAULT_IMPLAUSIBLE);
+}
+
 TEST_F(SlidingFinger, IsNotFeltWhileNobodyTakesItsFrames) {
     slide(3000);
     EXPECT_EQ(state_->windows_lost, 0U);

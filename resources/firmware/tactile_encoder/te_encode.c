@@ -61,13 +61,26 @@ enum te_refusal te_init(struct te_state* state, const struct te_profile* profile
     te_taxels_init(state);
     te_health_init(state);
     te_frames_init(state);
+    state->asked_ns = TE_ALWAYS;
     state->accepted = 1U;
     return TE_ACCEPTED;
 }
 
-void te_stop(struct te_state* state) { state->stopped = 1U; }
+void te_stop(struct te_state* state) { *(volatile uint32_t*)&state->stopped = 1U; }
 
-void te_rested(struct te_state* state) { state->rested = 1U; }
+int te_is_stopped(const struct te_state* state) { return *(const volatile uint32_t*)&state->stopped != 0U; }
+
+void te_rested(struct te_state* state) { state->rested_ns = TE_REST_NS; }
+
+/* The rest goes on by what passed since the last call, at most a second: a clock may be set only then. */
+static void rest(struct te_state* state, int64_t now_ns) {
+    if (now_ns < 0 || now_ns > TE_LAST_NS) return;
+    if (state->asked_ns != TE_ALWAYS && now_ns > state->asked_ns && state->rested_ns < TE_REST_NS) {
+        const int64_t passed_ns = now_ns - state->asked_ns;
+        state->rested_ns += passed_ns < TE_SECOND_NS ? passed_ns : TE_SECOND_NS;
+    }
+    state->asked_ns = now_ns;
+}
 
 /* Encoding ------------------------------------------------------------------------------------------------------ */
 
@@ -205,10 +218,7 @@ static struct te_train train_of(const struct te_state* state, const struct te_co
 int te_next_train(struct te_state* state, int64_t now_ns, struct te_train* train) {
     struct te_series* const series = &state->series;
     enum te_refusal refusal;
-    if (!state->asked && now_ns >= 0 && now_ns <= TE_LAST_NS) {
-        state->asked = 1U;
-        state->asked_ns = now_ns;
-    }
+    rest(state, now_ns);
     if (te_fault(state, now_ns) != 0U || !state->latest.contact || !(state->latest.R >= 0.0F)) {
         want_nothing(series);
         return 0;
@@ -226,5 +236,5 @@ int te_next_train(struct te_state* state, int64_t now_ns, struct te_train* train
     te_train_book(&state->profile, &state->gate, train, now_ns);
     delivered(series);
     ++state->trains;
-    return 1;
+    return !te_is_stopped(state); /* which may have come meanwhile */
 }

@@ -63,8 +63,7 @@ void te_pace(struct te_state* state, int64_t t_ns) {
         pacer->expected_ns += pacer->step_ns + (int32_t)late / 20;
     } else {
         if (pacer->last_ns == TE_ALWAYS || late > 0) {
-            pacer->anchor_ns = t_ns;
-            pacer->frames = 0U;
+            pacer->next_ns = t_ns;
         }
         pacer->expected_ns = t_ns + pacer->step_ns;
     }
@@ -73,11 +72,7 @@ void te_pace(struct te_state* state, int64_t t_ns) {
         add_due(state, t_ns);
         return;
     }
-    for (;; ++pacer->frames) {
-        const int64_t due = pacer->anchor_ns + (int64_t)pacer->frames * FRAME_NS;
-        if (due > t_ns) return;
-        add_due(state, due);
-    }
+    for (; pacer->next_ns <= t_ns; pacer->next_ns += FRAME_NS) add_due(state, pacer->next_ns);
 }
 
 static int64_t centre_of(const struct te_state* state, const struct te_pending* pending) {

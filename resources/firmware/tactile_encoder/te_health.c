@@ -6,8 +6,7 @@
 #define KNOWN 16U       /* changes after which that is known */
 /* A frame shows the middle of its window: half of 64 ms late, a hop, and the wait for the next sample of force. */
 #define FRAME_DELAY_NS INT64_C(78000000)
-#define REST_NS INT64_C(8000000000) /* longer than the longest window of exposure */
-#define ARRAY 4U                    /* the least taxels that a filter does not make all equal */
+#define ARRAY 4U /* the least taxels that a filter does not make all equal */
 
 void te_health_init(struct te_state* state) {
     uint32_t i;
@@ -138,12 +137,6 @@ static uint32_t age_fault(int64_t stamp_ns, int64_t now_ns, int64_t delay_ns) {
     return stamp_ns > now_ns + TE_STALE_NS ? TE_FAULT_FUTURE : 0U;
 }
 
-/* What a board delivered before it was reset still counts. */
-static int is_resting(const struct te_state* state, int64_t now_ns) {
-    if (state->rested) return 0;
-    return !state->asked || now_ns < state->asked_ns + REST_NS;
-}
-
 uint32_t te_fault(const struct te_state* state, int64_t now_ns) {
     const struct te_profile* const profile = &state->profile;
     const float rates[TE_STREAMS] = {profile->acceleration_hz, profile->force_hz, profile->taxels_hz};
@@ -151,8 +144,9 @@ uint32_t te_fault(const struct te_state* state, int64_t now_ns) {
     uint32_t i;
     if (!state->accepted) return TE_FAULT_PROFILE;
     if (now_ns < 0 || now_ns > TE_LAST_NS) return TE_FAULT_FUTURE;
-    if (state->stopped) fault |= TE_FAULT_STOPPED;
-    if (is_resting(state, now_ns)) fault |= TE_FAULT_RESTING;
+    if (te_is_stopped(state)) fault |= TE_FAULT_STOPPED;
+    /* What a board delivered before it was reset still counts. */
+    if (state->rested_ns < TE_REST_NS) fault |= TE_FAULT_RESTING;
     for (i = 0; i < (uint32_t)TE_STREAMS; ++i) {
         if (rates[i] > 0.0F) fault |= age_fault(state->newest_ns[i], now_ns, 0);
     }

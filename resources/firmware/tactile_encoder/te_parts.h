@@ -16,6 +16,12 @@ extern "C" {
 #define TE_STALE_NS INT64_C(100000000)
 #define TE_ROUNDING_NS 1
 #define TE_SECOND_NS INT64_C(1000000000)
+#define TE_REST_NS INT64_C(8000000000) /* longer than the longest window of exposure */
+
+/* Every comparison here is one that NaN fails. */
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
+#error "the encoder refuses NaN, which -ffast-math and -ffinite-math-only take away"
+#endif
 
 /* Mathematics that gives the same bits on every machine with IEEE 754 floats and no contraction, which the C library's
  * functions do not. `x` of log2 above 0; of sin 0 to pi/2. */
@@ -67,6 +73,9 @@ struct te_touch te_taxels_at(const struct te_state* state, int64_t t_ns);
 /* Frames (te_frame.c) */
 void te_frames_init(struct te_state* state);
 void te_pace(struct te_state* state, int64_t t_ns);
+
+/* Whether te_stop() was called, as it is now: it may come from an interrupt. */
+int te_is_stopped(const struct te_state* state);
 
 /* Health (te_health.c) */
 void te_health_init(struct te_state* state);

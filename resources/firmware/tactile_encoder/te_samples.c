@@ -334,7 +334,9 @@ static void push(struct te_state* state, enum te_stream stream, int64_t t_ns, co
     float sample[TE_AXES > TE_TAXELS ? TE_AXES : TE_TAXELS];
     scale(profile, stream, raw, columns, sample);
     te_health_sample(state, stream, t_ns, raw, columns);
-    if (!plausible(sample, columns, most_of(profile, stream))) state->implausible_ns = t_ns;
+    if (!plausible(sample, columns, most_of(profile, stream))) {
+        if (t_ns > state->implausible_ns) state->implausible_ns = t_ns;
+    }
     if (stream == TE_ACCELERATION) {
         push_acceleration(state, t_ns, sample);
     } else if (stream == TE_FORCE) {

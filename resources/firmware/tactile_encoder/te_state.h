@@ -8,6 +8,10 @@
 
 #include <stdint.h>
 
+#if (TE_TAXEL_HISTORY & (TE_TAXEL_HISTORY - 1U)) != 0
+#error "TE_TAXEL_HISTORY is not a power of two"
+#endif
+
 struct te_window {
     uint32_t first; /* number of its first sample */
     int64_t begin_ns;
@@ -64,9 +68,9 @@ struct te_taxels {
 
 /* Frames without acceleration: when they are due. */
 struct te_pacer {
-    int64_t anchor_ns, expected_ns, last_ns;
+    int64_t next_ns, expected_ns, last_ns;
     int32_t step_ns, frame_ns;
-    uint32_t every_sample, frames;
+    uint32_t every_sample;
 };
 
 struct te_spectrum {
@@ -141,8 +145,8 @@ struct te_state {
     int64_t implausible_ns;
     struct te_series series;
     struct te_gate gate;
-    uint32_t accepted, stopped, asked, rested;
-    int64_t asked_ns;                              /* first te_next_train() */
+    uint32_t accepted, stopped;
+    int64_t asked_ns, rested_ns;                   /* last te_next_train(), and the rest so far */
     uint32_t windows_lost, trains, trains_refused; /* counts, for a status */
     uint32_t refusal;                              /* enum te_refusal of the last train refused */
 };
