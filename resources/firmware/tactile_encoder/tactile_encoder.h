@@ -1,14 +1,18 @@
 /* tactile_encoder.h - Tactoscope's chain on a microcontroller: samples of a fingertip in, pulse trains out.
  *
  * Roughness R, pressure P and trains as resources/design/science.md sections 2 to 4 define them, in single precision.
- * C99, static memory, of the C library only fabsf() and sqrtf(); README.md says what it costs. A main loop, whole:
+ * C99, static memory; README.md says what it costs and needs. A main loop, whole:
  *
  *     if (te_init(&state, &profile) != TE_ACCEPTED) halt();
  *     if (switched_on_by_hand) te_rested(&state);
  *     for (;;) {
  *         if (block_ready) te_samples(&state, TE_ACCELERATION, first_ns, step_ns, values, count);
  *         while (te_frame(&state, &frame)) report(&frame);
- *         if (te_next_train(&state, now_ns(), &train)) start_timer(&train);
+ *         if (te_next_train(&state, now_ns(), &train)) {
+ *             mask_interrupts();
+ *             if (te_fault(&state, now_ns()) == 0) start_timer(&train);
+ *             unmask_interrupts();
+ *         }
  *     }
  *
  * A train is complete and finite: what plays it needs nothing more from here, so it ends by itself. No train is made
@@ -20,7 +24,8 @@
  * load on a bench, not for a person: this code knows no discomfort limit, and no impedance that changes.
  *
  * Times are int64_t nanoseconds of one clock that never steps back, from 0 to 73 years. Thread-safety: a state has one
- * owner at a time.
+ * owner at a time; te_stop() alone may also be called from an interrupt, which then cancels the timer itself. One that
+ * comes during te_init() is lost.
  */
 #ifndef TACTILE_ENCODER_H
 #define TACTILE_ENCODER_H
@@ -33,7 +38,8 @@ extern "C" {
 
 #define TE_LAYOUT 1U /* of struct te_profile */
 
-/* What the memory is for. More taxels, or a history for a faster array, may be set when compiling. */
+/* What the memory is for. More taxels, or a history (a power of two) for a faster array, may be set when compiling, to
+ * the same in every file: the profile and the state have another size then. */
 #define TE_AXES 3U
 #define TE_WINDOW 256U /* samples of 64 ms, so up to 4 kHz */
 #define TE_RING 512U   /* filtered samples: a window, and those that wait for force */
@@ -41,7 +47,7 @@ extern "C" {
 #define TE_FRAMES 32U  /* transformed, and waiting for taxels */
 #define TE_FORCES 64U
 #define TE_BOOKED 128U
-#define TE_BLOCK 65536U /* samples in one te_samples() */
+#define TE_BLOCK 65536U /* samples in one te_samples(); of more than 40 ms at once windows may be lost */
 #define TE_PERIODS 64U  /* samples in the longest block whose repetition is found */
 #ifndef TE_TAXELS
 #define TE_TAXELS 8U
@@ -74,15 +80,15 @@ struct te_profile {
     uint32_t layout; /* TE_LAYOUT */
     uint32_t hash;   /* te_hash() */
 
-    float acceleration_hz;   /* 100 to 4000 */
+    float acceleration_hz;   /* 99 to 4007 */
     uint32_t axes;           /* 1 to TE_AXES */
     float acceleration_most; /* a reading beyond it is a fault: 5000 m/s2 (science.md section 1) */
-    float force_hz;          /* 20 to 300 */
+    float force_hz;          /* 20 to 300; without acceleration 1 to 300 */
     float force_scale;       /* N per unit of a reading, above 0 or below */
     float force_offset;      /* N */
     float force_most;        /* N, after scaling */
     uint32_t force_newton;   /* 1: the scaled force is in N and gives a pressure; 0: it is in counts */
-    float taxels_hz;         /* 10 to TE_TAXEL_HISTORY / 0.36 s */
+    float taxels_hz;         /* 1 to TE_TAXEL_HISTORY / 0.5 s */
     uint32_t taxels;         /* 2 to TE_TAXELS */
     float taxels_most;       /* Pa, after scaling */
     uint32_t taxels_pascal;  /* 1: their mean is a pressure where there is no force; 0: they are in counts */
@@ -135,7 +141,7 @@ struct te_reading {
 
 struct te_train {
     int64_t onset_ns; /* now, or at most TE_AHEAD_NS later */
-    float interval_s; /* to the next onset, at the least */
+    float interval_s; /* to the next onset as commanded; the next may come sooner if pressure rises */
     float command_v;  /* A of science.md section 4 */
     float amplitude;  /* V, or mA of a current source, on the device's step */
     uint32_t shape, negative;
@@ -170,10 +176,12 @@ enum te_refusal {
 #define TE_FAULT_STOPPED 1U /* te_stop() */
 #define TE_FAULT_STALE 2U   /* a stream or the newest frame is older than 100 ms (a frame, by its own delay more) */
 #define TE_FAULT_FUTURE 4U  /* a stamp lies more than 100 ms ahead */
-#define TE_FAULT_STUCK 8U   /* a sensor repeats itself */
+/* An axis of acceleration repeats itself, or an array of four taxels or more that is touched does as a whole, or all of
+ * force and taxels where there is no acceleration. Force that stands still, or some taxels of an array, is no fault. */
+#define TE_FAULT_STUCK 8U
 #define TE_FAULT_IMPLAUSIBLE 16U /* within 100 ms a reading was not a number, or no fingertip's */
-#define TE_FAULT_RESTING 64U /* what came out before te_init() is not known: for 8 s from the first te_next_train() */
-#define TE_FAULT_PROFILE 32U /* te_init() refused, or was not called */
+#define TE_FAULT_RESTING 64U     /* what came out before te_init() is not known: 8 s of calls of te_next_train() */
+#define TE_FAULT_PROFILE 32U     /* te_init() refused, or was not called: so for zeroed memory */
 
 #include "te_state.h"
 
@@ -184,7 +192,8 @@ uint32_t te_hash(const struct te_profile* profile);
 /* Reads what `firmware-profile --out FILE.bin` wrote: the words of struct te_profile, of the taxels those in use. */
 enum te_refusal te_read_profile(struct te_profile* profile, const uint8_t* bytes, uint32_t size);
 
-/* Begins, with everything forgotten. After anything but TE_ACCEPTED the state makes no train. */
+/* Begins, with everything forgotten. After anything but TE_ACCEPTED the state makes no train. `profile` lies outside
+ * `state`, whose own copy is cleared first. */
 enum te_refusal te_init(struct te_state* state, const struct te_profile* profile);
 
 /* Takes `count` samples, `step_ns` apart, one value per axis or taxel. Returns how many were taken: all, or none of a
