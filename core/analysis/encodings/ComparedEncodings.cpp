@@ -114,7 +114,8 @@ double asymmetryOf(const std::vector<ComparedEncoding>& done) {
 }
 
 EncodingDifference differenceOf(const ComparedEncoding& each, const ComparedEncoding& base) {
-    EncodingDifference out{.encoding = each.of.name};
+    EncodingDifference out;
+    out.encoding = each.of.name;
     for (std::size_t i = 0; i < kComparedConditions; ++i)
         out.conditions.push_back(movedBetween(base.conditions.conditions.at(i), each.conditions.conditions.at(i)));
     out.pair_jnd = each.smallestPair_jnd - base.smallestPair_jnd;
@@ -309,7 +310,8 @@ ComparedEncoding comparedEncoding(EncodingName of, Separability conditions, Sepa
 }
 
 ComparedEncodings compareEncodings(std::vector<ComparedEncoding> encodings) {
-    ComparedEncodings out{.encodings = std::move(encodings)};
+    ComparedEncodings out;
+    out.encodings = std::move(encodings);
     for (std::size_t i = 1; i < out.encodings.size(); ++i)
         out.differences.push_back(differenceOf(out.encodings[i], out.encodings.front()));
     out.asymmetry_jnd = asymmetryOf(out.encodings);
