@@ -105,6 +105,8 @@ xml_node addWith(xml_node to, const char* name, const char* refType) {
 }
 
 std::string numberText(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "NaN"; }
+/// A level as it was set, 0.65 and not 0.6499999999999999.
+std::string levelText(double value) { return std::isfinite(value) ? fmt::format("{:.12g}", value) : "NaN"; }
 /// D-SI has no exponents here, and no factor below 1.
 std::string factorText(double k) {
     constexpr double kMax = 1e15;
@@ -139,9 +141,9 @@ void addReal(xml_node to, double value, std::string_view unit, double u, double 
     addText(expanded, "si:coverageProbability", numberText(kCoverage));
 }
 
-void addList(xml_node to, const Values& of, std::string_view unit) {
+void addList(xml_node to, const Values& of, std::string_view unit, std::string (*text)(double) = numberText) {
     auto list = to.append_child("si:realListXMLList");
-    addText(list, "si:valueXMLList", listText(of.values));
+    addText(list, "si:valueXMLList", listText(of.values, text));
     addText(list, "si:unitXMLList", unit);
     if (std::ranges::none_of(of.uncertainties, [](double u) { return std::isfinite(u); })) return;
     auto expanded =
@@ -398,12 +400,13 @@ private:
         addContent(result, "dcc:name", {title});
         auto list = result.append_child("dcc:data").append_child("dcc:list");
         const auto unit = unitOf(written);
-        const auto add = [&](const char* refType, const char* name, const Values& values) {
+        const auto add = [&](const char* refType, const char* name, const Values& values,
+                             std::string (*text)(double) = numberText) {
             auto one = addWith(list, "dcc:quantity", refType);
             addContent(one, "dcc:name", {name});
-            addList(one, values, unit);
+            addList(one, values, unit, text);
         };
-        add(kNominal, "Set", set);
+        add(kNominal, "Set", set, levelText);
         add(kMeasured, "Delivered", delivered);
         add(kError, "Error", error);
         add(kTolerance, "Tolerance, ±", tolerance);

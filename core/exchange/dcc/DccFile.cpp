@@ -19,13 +19,8 @@ namespace {
 
 using pugi::xml_node;
 
-constexpr std::size_t kShown = 60;
-constexpr int kDeepest = 64;  // elements within each other
-
-std::string shown(std::string_view text) {
-    if (text.size() <= kShown) return printable(text);
-    return printable(text.substr(0, kShown)) + "…";
-}
+constexpr std::size_t kShown = 60, kLongestName = 500;  // bytes
+constexpr int kDeepest = 64;                            // elements within each other
 
 /// The name without its prefix. The root says which namespace that is.
 std::string_view localName(const xml_node& node) {
@@ -102,40 +97,80 @@ struct DepthWalker : pugi::xml_tree_walker {
 /// Reads the quantities of one certificate. Errors name the quantity.
 class QuantityReader {
 public:
-    explicit QuantityReader(std::vector<DccQuantity>& into) : into_(into) {}
+    QuantityReader(const std::vector<DccItem>& items, std::vector<DccQuantity>& into) : items_(items), into_(into) {}
 
     [[nodiscard]] Result<void> results(const xml_node& measurementResults) {
         for (const auto& measurement : measurementResults.children()) {
             if (!isCalled(measurement, "measurementResult")) continue;
-            const auto name = textInEnglish(childOf(measurement, "name"));
+            const auto outer = within(measurement, {});
+            if (!outer) return failure(outer);
             for (const auto& result : childOf(measurement, "results").children()) {
                 if (!isCalled(result, "result")) continue;
-                const auto within = name + "; " + textInEnglish(childOf(result, "name"));
-                if (auto done = all(childOf(result, "data"), within); !done) return done;
+                const auto inner = within(result, *outer);
+                if (!inner) return failure(inner);
+                const auto data = childOf(result, "data");
+                if (auto done = all(data, {inner->names, itemsOf(data, inner->items)}); !done) return done;
             }
         }
         return {};
     }
 
 private:
+    /// What a quantity stands in.
+    struct Within {
+        std::string names{};
+        std::vector<std::size_t> items{};
+    };
+    /// The name of an element, which goes into each quantity within it.
+    [[nodiscard]] static Result<std::string> nameOf(const xml_node& node) {
+        auto name = textInEnglish(childOf(node, "name"));
+        if (name.size() > kLongestName)
+            return fail(ErrorCode::ParseError, "the name \"{}\" has {} bytes; at most {} are accepted", shownOf(name),
+                        name.size(), kLongestName);
+        return name;
+    }
+    [[nodiscard]] Result<Within> within(const xml_node& node, const Within& outer) const {
+        const auto name = nameOf(node);
+        if (!name) return failure(name);
+        return Within{outer.names.empty() ? *name : outer.names + "; " + *name, itemsOf(node, outer.items)};
+    }
+    /// The items to which an element refers, or those of what it stands in.
+    [[nodiscard]] std::vector<std::size_t> itemsOf(const xml_node& node, const std::vector<std::size_t>& outer) const {
+        const auto ids = wordsOf(node.attribute("refId").value());
+        std::vector<std::size_t> own;
+        for (std::size_t i = 0; i < items_.size(); ++i)
+            if (!items_[i].id.empty() && std::ranges::find(ids, items_[i].id) != ids.end()) own.push_back(i);
+        return own.empty() ? outer : own;
+    }
+
     /// What stands directly in <data> or <list> belongs together.
-    [[nodiscard]] Result<void> all(const xml_node& in, const std::string& within) {
+    [[nodiscard]] Result<void> all(const xml_node& in, const Within& outer) {
         const auto list = ++lists_;
         for (const auto& each : in.children()) {
             Result<void> done;
-            if (isCalled(each, "list"))
-                done = all(each, within + "; " + textInEnglish(childOf(each, "name")));
-            else if (isCalled(each, "quantity"))
-                done = one(each, within, list);
+            if (isCalled(each, "list")) {
+                const auto inner = within(each, outer);
+                done = inner ? all(each, *inner) : failure(inner);
+            } else if (isCalled(each, "quantity")) {
+                done = one(each, outer, list);
+            }
             if (!done) return done;
         }
         return {};
     }
 
-    [[nodiscard]] Result<void> one(const xml_node& node, const std::string& within, std::size_t list) {
-        DccQuantity quantity{
-            .refTypes = refTypesOf(node), .name = textInEnglish(childOf(node, "name")), .within = within, .list = list};
-        name_ = quantity.name.empty() ? within : quantity.name;
+    [[nodiscard]] Result<void> one(const xml_node& node, const Within& outer, std::size_t list) {
+        auto name = nameOf(node);
+        if (!name) return failure(name);
+        if (into_.size() == kDccMostQuantities)
+            return fail(ErrorCode::ParseError, "it has more than {} quantities, the most that are accepted",
+                        kDccMostQuantities);
+        DccQuantity quantity{.refTypes = refTypesOf(node),
+                             .name = std::move(*name),
+                             .within = outer.names,
+                             .list = list,
+                             .items = itemsOf(node, outer.items)};
+        name_ = quantity.name.empty() ? quantity.within : quantity.name;
         auto from = node;
         if (const auto hybrid = childOf(node, "hybrid")) from = hybrid;  // the same in several units: the first
         Result<bool> read = false;
@@ -161,10 +196,10 @@ private:
             const auto number = word == "NaN" ? std::optional(kNaN) : decimal(word);
             if (!number)
                 return fail(ErrorCode::ParseError, "{} of \"{}\" is \"{}\"; a decimal number or NaN is expected", what,
-                            shown(name_), shown(word));
+                            shownOf(name_), shownOf(word));
             all.push_back(*number);
         }
-        if (all.empty()) return fail(ErrorCode::ParseError, "{} of \"{}\" is missing", what, shown(name_));
+        if (all.empty()) return fail(ErrorCode::ParseError, "{} of \"{}\" is missing", what, shownOf(name_));
         return all;
     }
 
@@ -176,7 +211,7 @@ private:
         if (all->size() == 1) all->resize(count, all->front());
         if (all->size() != count)
             return fail(ErrorCode::ParseError,
-                        "\"{}\" has {} values and {} numbers for {}; as many, or one, are expected", shown(name_),
+                        "\"{}\" has {} values and {} numbers for {}; as many, or one, are expected", shownOf(name_),
                         count, all->size(), what);
         return all;
     }
@@ -185,7 +220,7 @@ private:
         auto values = numbers(childOf(real, "value"), "the value");
         if (!values) return failure(values);
         if (values->size() != 1)
-            return fail(ErrorCode::ParseError, "\"{}\" has {} values where one is expected", shown(name_),
+            return fail(ErrorCode::ParseError, "\"{}\" has {} values where one is expected", shownOf(name_),
                         values->size());
         quantity.values = std::move(*values);
         if (auto done = unit(childOf(real, "unit"), quantity); !done) return failure(done);
@@ -202,14 +237,14 @@ private:
     [[nodiscard]] Result<void> unit(const xml_node& node, DccQuantity& quantity) const {
         const auto text = wholeText(node);
         const auto words = wordsOf(text);
-        if (words.empty()) return fail(ErrorCode::ParseError, "the unit of \"{}\" is missing", shown(name_));
+        if (words.empty()) return fail(ErrorCode::ParseError, "the unit of \"{}\" is missing", shownOf(name_));
         if (words.size() != 1 && words.size() != quantity.values.size())
             return fail(ErrorCode::ParseError, "\"{}\" has {} values and {} units; as many, or one, are expected",
-                        shown(name_), quantity.values.size(), words.size());
+                        shownOf(name_), quantity.values.size(), words.size());
         const auto other = std::ranges::find_if(words, [&](std::string_view each) { return each != words.front(); });
         if (other != words.end())
-            return fail(ErrorCode::ParseError, "\"{}\" has values in {} and in {}; one unit is expected", shown(name_),
-                        shown(words.front()), shown(*other));
+            return fail(ErrorCode::ParseError, "\"{}\" has values in {} and in {}; one unit is expected",
+                        shownOf(name_), shownOf(words.front()), shownOf(*other));
         quantity.unit = words.front();
         return {};
     }
@@ -258,17 +293,18 @@ private:
         };
         const auto& [u, k, p] = std::tie(quantity.uncertainties, quantity.coverageFactors, quantity.probabilities);
         if (const auto at = wrong(u, [](double each) { return each >= 0; }); at != u.end())
-            return fail(ErrorCode::ParseError, "the uncertainty of \"{}\" is {}; 0 or more is expected", shown(name_),
+            return fail(ErrorCode::ParseError, "the uncertainty of \"{}\" is {}; 0 or more is expected", shownOf(name_),
                         *at);
         if (const auto at = wrong(k, [](double each) { return each >= 1; }); at != k.end())
             return fail(ErrorCode::ParseError, "the coverage factor k of \"{}\" is {}; 1 or more is expected",
-                        shown(name_), *at);
+                        shownOf(name_), *at);
         if (const auto at = wrong(p, [](double each) { return each >= 0 && each <= 1; }); at != p.end())
             return fail(ErrorCode::ParseError, "the coverage probability of \"{}\" is {}; 0 to 1 is expected",
-                        shown(name_), *at);
+                        shownOf(name_), *at);
         return true;
     }
 
+    const std::vector<DccItem>& items_;
     std::vector<DccQuantity>& into_;
     std::size_t lists_ = 0;
     std::string name_;
@@ -291,7 +327,7 @@ Result<DccFile> fileFrom(const xml_node& root) {
     file.schemaVersion = root.attribute("schemaVersion").value();
     if (!file.schemaVersion.starts_with("3."))
         return fail(ErrorCode::ParseError, "its schemaVersion is \"{}\"; version 3 of the DCC is expected",
-                    shown(file.schemaVersion));
+                    shownOf(file.schemaVersion));
     const auto administrative = childOf(root, "administrativeData");
     const auto core = childOf(administrative, "coreData");
     for (const auto& [into, name] :
@@ -311,14 +347,16 @@ Result<DccFile> fileFrom(const xml_node& root) {
         file.items.push_back({.name = textInEnglish(childOf(item, "name")),
                               .manufacturer = std::move(manufacturer),
                               .model = textOf(childOf(item, "model")),
-                              .serial = serialOf(item)});
+                              .serial = serialOf(item),
+                              .id = item.attribute("id").value()});
     }
     if (file.items.empty()) return fail(ErrorCode::ParseError, "it names no item that was calibrated");
     for (const auto& statement : childOf(administrative, "statements").children()) {
-        if (has(statement, dcc::kRecalibration)) file.recalibration = textOf(childOf(statement, "date"));
+        if (auto day = textOf(childOf(statement, "date")); has(statement, dcc::kRecalibration) && !day.empty())
+            file.recalibrations.push_back(std::move(day));
         file.simulated = file.simulated || has(statement, dcc::kSimulated);
     }
-    if (auto read = QuantityReader(file.quantities).results(childOf(root, "measurementResults")); !read)
+    if (auto read = QuantityReader(file.items, file.quantities).results(childOf(root, "measurementResults")); !read)
         return failure(read);
     return file;
 }
@@ -346,7 +384,7 @@ Result<DccFile> readFrom(std::string_view bytes) {
                                           ? document.first_child().attribute("encoding").value()
                                           : "";
     if (!encoding.empty() && lowered(encoding) != "utf-8")
-        return fail(ErrorCode::ParseError, "it says that its encoding is \"{}\"; UTF-8 is expected", shown(encoding));
+        return fail(ErrorCode::ParseError, "it says that its encoding is \"{}\"; UTF-8 is expected", shownOf(encoding));
     const auto root = document.document_element();
     const std::string_view name = root.name();
     const auto colon = name.rfind(':');
@@ -355,7 +393,7 @@ Result<DccFile> readFrom(std::string_view bytes) {
     if (!isCalled(root, "digitalCalibrationCertificate") ||
         std::string_view(root.attribute(declares.c_str()).value()) != dcc::kNamespace)
         return fail(ErrorCode::ParseError, "its root is \"{}\"; a digitalCalibrationCertificate of {} is expected",
-                    shown(name), dcc::kNamespace);
+                    shownOf(name), dcc::kNamespace);
     DepthWalker walker;  // a tree as deep as it likes ends what goes through it by calling itself
     document.traverse(walker);
     if (walker.deepest > kDeepest)
@@ -369,6 +407,11 @@ Result<DccFile> readFrom(std::string_view bytes) {
 }
 
 }  // namespace
+
+std::string shownOf(std::string_view text) {
+    if (text.size() <= kShown) return printable(text);
+    return printable(text.substr(0, kShown)) + "…";
+}
 
 bool DccQuantity::is(std::string_view refType) const { return std::ranges::find(refTypes, refType) != refTypes.end(); }
 

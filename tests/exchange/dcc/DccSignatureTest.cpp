@@ -1,10 +1,12 @@
 // Signatures that xmlsec1 makes: they hold, and nothing of what they sign can be changed.
+#include <chrono>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <random>
 
 #include "core/base/Csv.h"
-#include "core/exchange/dcc/DccFile.h"
+#include "core/exchange/dcc/DccCertificate.h"
 #include "tests/exchange/dcc/DccText.h"
 #include "tests/support/PythonEnvironment.h"
 #include "tests/support/Support.h"
@@ -74,6 +76,16 @@ TEST_F(DccSignatures, HoldAndNameTheirSigner) {
     ASSERT_TRUE(file) << file.error().message;
     EXPECT_TRUE(file->signature.there);
     EXPECT_EQ(file->signature.signer, "O=Calibration,CN=Lab Ü");
+    auto openssl = outputOfShell("cd '" + folder_.path().string() + "' && openssl x509 -in cert.pem -noout -sha256 " +
+                                 "-fingerprint | cut -d= -f2 | tr 'A-F' 'a-f' | tr -d '\\n'");
+    EXPECT_EQ(file->signature.fingerprint, openssl.text);
+    // Who signed is not vouched for: anybody can sign under any name.
+    auto given = Certificate{};
+    given.gain_pct = 1;
+    const auto said = certificateFrom({&*file, 1}, given);
+    ASSERT_TRUE(said) << said.error().message;
+    EXPECT_THAT(said->notes, testing::Contains(testing::AllOf(HasSubstr("nobody vouches for"), HasSubstr("Lab Ü"),
+                                                              HasSubstr(openssl.text))));
     dcc.tail = signatureTemplate("rsa-sha512", "", kEnveloped, "http://www.w3.org/2001/04/xmlenc#sha512");
     const auto rsa = dccFrom(signedBy(dcc.text(), "rsa.pem,rsacert.pem"), "file.xml");
     ASSERT_TRUE(rsa) << rsa.error().message;
@@ -83,7 +95,7 @@ TEST_F(DccSignatures, HoldAndNameTheirSigner) {
 /// What is read of a certificate, as text.
 std::string readOf(const DccFile& file) {
     auto text = fmt::format("{};{};{};{};{};{}", file.number, file.laboratory, file.begun, file.ended,
-                            file.recalibration, file.simulated);
+                            fmt::join(file.recalibrations, " "), file.simulated);
     for (const auto& item : file.items)
         text += fmt::format(";{};{};{};{}", item.name, item.manufacturer, item.model, item.serial);
     for (const auto& quantity : file.quantities) {
@@ -114,7 +126,7 @@ TEST_F(DccSignatures, AreRefusedWhenAByteIsAltered) {
         auto changed = whole;
         while (changed[at] == whole[at] || !isWord(changed[at])) changed[at] = static_cast<char>(random() % 128);
         ++altered;
-        refuses(changed, "altered after it was signed");
+        refuses(changed, "was altered, or the key in it is not the one that signed");
     }
     // A comment is not signed, and changes nothing of what is read.
     int read = 0;
@@ -170,6 +182,42 @@ TEST_F(DccSignatures, AreRefusedIfTheyDoNotCoverTheWholeOrAreWeak) {
     two.insert(two.find("<ds:Signature"),
                one.substr(one.find("<ds:Signature"), one.find("</ds:Signature>") + 15 - one.find("<ds:Signature")));
     refuses(two, "");
+    // Elsewhere than below the root, at a depth drawn at random.
+    std::mt19937 random(11);
+    for (int trial = 0; trial < 20; ++trial) {
+        const auto begin = one.find("<ds:Signature"), end = one.find("</ds:Signature>") + 15;
+        std::string open, close;
+        for (auto depth = 1 + random() % 20; depth > 0; --depth) {
+            open += "<dcc:comment>";
+            close += "</dcc:comment>";
+        }
+        refuses(one.substr(0, begin) + open + one.substr(begin, end - begin) + close + one.substr(end),
+                "a signature stands within its");
+    }
+    // References that name no element, or too many, are refused before anything is computed.
+    const auto reference =
+        one.substr(one.find("<ds:Reference"), one.find("</ds:Reference>") + 15 - one.find("<ds:Reference"));
+    std::string many = "<dcc:comment>";
+    for (int i = 0; i < 60'000; ++i) many += "<a/>";
+    many += "</dcc:comment>";
+    const auto began = std::chrono::steady_clock::now();
+    for (const std::string uri : {"#xpointer(//*[count(//*[count(//*)&gt;1])&gt;1])", "#xpointer(id('part'))", "#",
+                                  "#a b", "file:///dev/zero", "http://localhost/"}) {
+        auto text = one;
+        auto other = reference;
+        other.replace(other.find("URI=\"\""), 6, "URI=\"" + uri + "\"");
+        text.insert(text.find("<ds:Reference"), other);
+        text.insert(text.find("<ds:Signature"), many);
+        refuses(text, "at most 4 references");
+    }
+    auto five = one;
+    for (int i = 0; i < 4; ++i) five.insert(five.find("<ds:Reference"), reference);
+    refuses(five, "at most 4 references");
+    auto manifest = one;
+    manifest.insert(manifest.find("</ds:Signature>"),
+                    "<ds:Object><ds:Manifest>" + reference + "</ds:Manifest></ds:Object>");
+    refuses(manifest, "no manifest");
+    EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(30));
     // A key that fits nothing.
     auto other = dcc(signatureTemplate("rsa-sha256"));
     other = signedBy(other, "rsa.pem,rsacert.pem");

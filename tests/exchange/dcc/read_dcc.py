@@ -61,7 +61,7 @@ def find(node, name):
 for si, at, rows in zip(tables, set_values, expected["tables"]):
     error = [number(row, "error") for row in rows]
     check(numbers(find(si, "valueXMLList")), error, "error")
-    check(numbers(find(at, "valueXMLList")), [row["commanded"] for row in rows], "set")
+    check(numbers(find(at, "valueXMLList")), [float(f"{row['commanded']:.12g}") for row in rows], "set")
     u = [number(row, "expanded_uncertainty") if row["error"] is not None else math.nan for row in rows]
     if all(map(math.isnan, u)):
         assert find(si, "valueExpandedMUXMLList") is None
