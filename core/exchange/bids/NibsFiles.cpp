@@ -65,7 +65,8 @@ class NibsWriter {
 public:
     NibsWriter(const ExportSource& source, const BidsFolder& folder) : source_(source), folder_(folder) {
         for (const auto& event : source.eventRows()) {
-            if (event.name == "estimate")
+            // One at the edge of its range is no threshold.
+            if (event.name == "estimate" && !flagOr(event.body, "at_edge"))
                 detections_.emplace_back(toSeconds(event.at), numberOr(valueOr(event.body, "estimate"), "value"));
         }
     }
