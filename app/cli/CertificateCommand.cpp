@@ -169,10 +169,12 @@ int runCertificate(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kCertificate{"certificate",
-                           "{list [--json] | add --instrument NAME --serial S --number N --by LAB --date D --due D "
-                           "--gain-u PCT [--timebase-u-ppm X] [--shunt-u PCT] [--probe-u PCT] [--json] | add --dcc "
-                           "FILE [--dcc FILE]... [--due D] [--json] | withdraw NUMBER [--serial S]}",
-                           "The calibration certificates of oscilloscopes", declareCertificate, runCertificate};
+const Command kCertificate{
+    "certificate",
+    "{list [--json] | add --instrument NAME --serial S --number N --by LAB --date D --due D "
+    "--gain-u PCT [--timebase-u-ppm X] [--shunt-u PCT] [--probe-u PCT] [--json] | add --dcc "
+    "FILE [--dcc FILE]... [--serial S] [--due D] [--gain-u PCT] [--timebase-u-ppm X] [--shunt-u PCT] "
+    "[--probe-u PCT] [--instrument NAME] [--json] | withdraw NUMBER [--serial S]}",
+    "The calibration certificates of oscilloscopes", declareCertificate, runCertificate};
 
 }  // namespace tacto::cli
