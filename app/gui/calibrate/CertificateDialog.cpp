@@ -12,7 +12,6 @@
 #include "app/gui/theme/Theme.h"
 #include "core/base/LocaleFreeText.h"
 #include "core/base/TypedNumber.h"
-#include "core/exchange/dcc/DccCertificate.h"
 namespace tacto::gui {
 
 namespace {
@@ -166,23 +165,43 @@ void CertificateDialog::judge() {
                                                : QString());
 }
 
+std::string CertificateDialog::typed(const std::string& field) const {
+    const auto written = text(field);
+    const auto read = fromFiles_.find(field);
+    return read != fromFiles_.end() && read->second == written ? std::string() : written;
+}
+
 void CertificateDialog::readFile(const std::filesystem::path& path) {
     auto file = readDcc(path);
     if (!file) return says_->setText(sentence(file.error()));
+    // One that states a gain is of an oscilloscope, and begins anew; others are added.
+    auto files = statesGain(*file) ? std::vector<DccFile>() : files_;
+    std::erase_if(
+        files, [&](const DccFile& each) { return each.number == file->number && each.laboratory == file->laboratory; });
+    files.push_back(std::move(*file));
     Certificate given;
-    if (const auto due = parseDate(text("due"))) given.due = *due;
-    if (file->items.size() > 1) given.serial = text("serial");
-    for (const auto& figure : kCertificateFigures) given.*figure.member = typedNumber(text(figure.option));
-    const auto read = certificateFrom({&*file, 1}, given);
+    if (const auto due = parseDate(typed("due"))) given.due = *due;
+    const auto& items = files.front().items;
+    if (items.size() > 1) given.serial = text("serial");
+    if (items.size() == 1 && items.front().serial.empty()) given.serial = typed("serial");
+    for (const auto& figure : kCertificateFigures) given.*figure.member = typedNumber(typed(figure.option));
+    const auto read = certificateFrom(files, given);
     if (!read) return says_->setText(sentence(read.error()));
+    files_ = std::move(files);
+    fromFiles_.clear();
     const auto& certificate = read->certificate;
+    const auto fill = [this](FieldForm& form, const std::string& field, const std::string& value, bool wasGiven) {
+        form.set(field, qtext(value));
+        if (!wasGiven) fromFiles_[field] = value;
+    };
     for (const auto& [key, title, member] : kCertificateTexts)
-        names_->set(std::string(key), qtext(certificate.*member));
-    names_->set("date", qtext(dateText(certificate.date)));
-    names_->set("due", qtext(dateText(certificate.due)));
+        fill(*names_, std::string(key), certificate.*member, certificate.*member == given.*member);
+    fill(*names_, "date", dateText(certificate.date), false);
+    fill(*names_, "due", dateText(certificate.due), certificate.due == given.due);
     for (const auto& figure : kCertificateFigures) {
         const auto& known = certificate.*figure.member;
-        figures_->set(figure.option, known ? qtext(fmt::format("{}", *known)) : QString());
+        fill(*figures_, figure.option, known ? fmt::format("{}", *known) : std::string(),
+             (given.*figure.member).has_value());
     }
     judge();
     QStringList says{says_->text()};
@@ -198,6 +217,7 @@ void CertificateDialog::enter() {
     if (!store) return says_->setText(sentence(store.error()));
     if (const auto added = store->add(*certificate, utcToday()); !added) return says_->setText(sentence(added.error()));
     list();
+    files_.clear();
     names_->set("number", {});  // the next certificate has another number
     says_->setText(tr("Certificate %1 is entered.").arg(qtext(certificate->number)));
 }

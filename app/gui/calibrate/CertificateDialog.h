@@ -10,11 +10,13 @@
 #include <QPushButton>
 #include <QTableWidget>
 #include <filesystem>
+#include <map>
 
 #include "app/gui/controller/BenchController.h"
 #include "app/gui/theme/ConfirmButton.h"
 #include "app/gui/theme/FieldForm.h"
 #include "core/calibration/CertificateStore.h"
+#include "core/exchange/dcc/DccCertificate.h"
 
 namespace tacto::gui {
 
@@ -51,7 +53,10 @@ private:
     /// Returns the certificate entered in the form. Errors: InvalidArgument, one sentence.
     [[nodiscard]] Result<Certificate> written() const;
     void judge();
-    /// Fills the form from a digital certificate; a day or figure that it does not state is taken from the form.
+    /// Returns the text of a field; empty if a file that was read wrote it and nobody changed it.
+    [[nodiscard]] std::string typed(const std::string& field) const;
+    /// Fills the form from a digital certificate; what it does not state is taken from what was typed into the form.
+    /// One of a shunt or a probe is added to the oscilloscope's.
     void readFile(const std::filesystem::path& path);
     void enter();
     void withdraw();
@@ -65,7 +70,9 @@ private:
     QLabel* says_;
     QPushButton* enter_ = nullptr;
     ConfirmButton* withdraw_ = nullptr;
-    bool asksWithdraw_ = false;  // the Withdraw button waits for its second click
+    std::vector<DccFile> files_;                    // read since the last was entered; the oscilloscope's first
+    std::map<std::string, std::string> fromFiles_;  // what they wrote into the fields
+    bool asksWithdraw_ = false;                     // the Withdraw button waits for its second click
 };
 
 }  // namespace tacto::gui

@@ -227,6 +227,54 @@ TEST_F(CertificateWindow, FillsItselfFromADigitalOne) {
     EXPECT_FALSE(one.timeBase_ppm || one.shunt_pct || one.probe_pct);
 }
 
+TEST_F(CertificateWindow, AddsAShuntAndBeginsAnewWithAnotherOscilloscope) {
+    const ScratchDir folder;
+    const auto read = [&](const DccText& dcc) {
+        const auto file = folder.write("file.xml", dcc.text());
+        click(*dialog->findChild<QPushButton*>("readCertificate"));
+        auto* chooser = dialog->findChild<QFileDialog*>("fileChooser");
+        ASSERT_NE(chooser, nullptr);
+        chooser->selectFile(QString::fromStdString(file.string()));
+        QMetaObject::invokeMethod(chooser, "accept");
+        delete chooser;
+    };
+    const auto shown = [&](const char* field) { return dialog->findChild<QLineEdit*>(field)->text().toStdString(); };
+    showDialog();
+    DccText scope, shunt, other;
+    scope.due = dateText(daysFromNow(300));
+    scope.ended = shunt.ended = other.ended = dateText(daysFromNow(-10));
+    scope.results = dccResult("DC", dccReal("", "Gain error", "0", "\\percent", "0.5", "2") +
+                                        dccReal("", "Time base error", "0", "\\ppm", "7", "2"));
+    shunt.number = "S-4";
+    shunt.model = "Shunt";
+    shunt.serial = "R1";
+    shunt.due = dateText(daysFromNow(200));
+    shunt.results = dccResult("Shunt", dccReal("", "Value", "0.1", "\\ohm", "0.0002", "2"));
+    other.number = "K-99";
+    other.serial = "";
+    other.due = dateText(daysFromNow(400));
+    other.results = dccResult("DC", dccReal("", "Gain error", "0", "\\percent", "0.8", "2"));
+    read(scope);
+    read(shunt);
+    EXPECT_EQ(shown("serial"), "DS1ZA1") << says();
+    EXPECT_EQ(shown("number"), "K-17 + S-4");
+    EXPECT_EQ(shown("due"), shunt.due);
+    EXPECT_EQ(shown("gain-u") + " " + shown("timebase-u-ppm") + " " + shown("shunt-u"), "0.5 7 0.2");
+    // The serial number of the first is not the second's.
+    read(other);
+    EXPECT_THAT(says(), HasSubstr("no serial number"));
+    write("serial", "OWN");
+    read(other);
+    EXPECT_EQ(shown("serial") + " " + shown("number"), "OWN K-99") << says();
+    EXPECT_EQ(shown("due"), other.due);
+    EXPECT_EQ(shown("gain-u") + shown("timebase-u-ppm") + shown("shunt-u"), "0.8");
+    click(enter());
+    ASSERT_EQ(kept().all().size(), 1U) << says();
+    // What was entered is done with: a shunt alone is no oscilloscope.
+    read(shunt);
+    EXPECT_THAT(says(), HasSubstr("states no voltage gain"));
+}
+
 TEST_F(CertificateWindow, LooksRightInBothThemes) {
     auto store = kept();
     const auto today = daysFromNow(0);
