@@ -25,6 +25,28 @@ std::string_view withoutFaultWord(std::string_view said) {
     return said.starts_with(kWord) ? said.substr(kWord.size()) : said;
 }
 
+/// Returns what happened and whether the output is off, in sentences.
+std::string saidOfOutput(const std::string& why, std::optional<FaultCause> fault) {
+    // The bench's sentence about a stop or a fault ends with the state of the output.
+    auto output = std::string(outputAfter(fault));
+    output.pop_back();
+    return why.ends_with('.') ? fmt::format("{}{}", capital(why.front()), why.substr(1))
+                              : fmt::format("{}: {}.", output, why);
+}
+
+/// Ends the session without a reset, after which only a load-safety run resets the unit's fault.
+Result<void> endAfter(PilotStage& stage, FaultCause grave, const std::string& during, const std::string& why) {
+    const auto ends =
+        fmt::format("a fault of {} ends the session; the safety check comes before the next", nameOf(grave));
+    auto kept = stage.record().write(row::kGate, during, {{"holds", false}, {"said", ends}, {row::kEnds, true}});
+    if (!kept) return kept;
+    stage.participant().show({});
+    const auto text = fmt::format("{} Take the {} off the participant, then go on: {}.", saidOfOutput(why, grave),
+                                  stage.settings().modality(), ends);
+    static_cast<void>(stage.participant().ask(goOnPrompt(text, PromptTo::Operator)));  // it ends, whatever is answered
+    return stage.end(PilotEnd::Stopped, ends);
+}
+
 }  // namespace
 
 // Stops
@@ -140,13 +162,10 @@ Result<void> PilotOutput::seatAgain(const std::string& during, const std::string
 
 Result<void> PilotOutput::askToSee(const std::string& why) {
     stage_.participant().show({});
-    // The bench's sentence about a stop or a fault ends with the state of the output.
-    auto output = std::string(outputAfter(stage_.bench().telemetry().fault));
-    output.pop_back();
-    const auto said = why.ends_with('.') ? fmt::format("{}{}", capital(why.front()), why.substr(1))
-                                         : fmt::format("{}: {}.", output, why);
-    const auto seen = insist(goOnPrompt(
-        fmt::format("{} See to the {}, then go on.", said, stage_.settings().modality()), PromptTo::Operator));
+    const auto seen = insist(
+        goOnPrompt(fmt::format("{} See to the {}, then go on.", saidOfOutput(why, stage_.bench().telemetry().fault),
+                               stage_.settings().modality()),
+                   PromptTo::Operator));
     return seen ? Result<void>() : failure(seen);
 }
 
@@ -380,13 +399,18 @@ Result<void> PilotOutput::afterTheFault(const std::string& during, const Error& 
         if (auto noted = noteParticipantStop(during, by); !noted) return noted;
     }
     auto cause = withoutNumbers(why.message);  // numbers may reveal the train to the participant; the row keeps them
+    Result<void> reset;
     for (int tries = 1;; ++tries) {
+        const auto known = stage_.bench().telemetry().causesCame;  // read first: `fault` has all that it counts
+        const auto fault = stage_.bench().unitFault();
+        if (const auto grave = fault ? graveCause(fault->causes) : std::nullopt)
+            return endAfter(stage_, *grave, during, cause);
+        if (tries > kSeatings) return reset;
         const bool computer = slow && tries == 1;
         if (auto seen = computer ? askAboutTheComputer() : askToSee(cause); !seen) return seen;
-        const auto reset = stage_.bench().resetFault();
+        reset = stage_.bench().resetFault(known);
         if (reset) break;
-        if (tries >= kSeatings) return reset;
-        cause = reset.error().message;  // the cause of the fault is still present
+        cause = reset.error().message;  // its cause is still present, or another has come
     }
     electrodesTouched();
     ramp_.becomeDue();

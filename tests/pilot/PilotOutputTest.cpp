@@ -308,7 +308,7 @@ TEST_F(PilotOutputTest, OfEachFaultTheOperatorReadsWhatItLeavesOfTheOutput) {
         operatorTakesTime();
         static_cast<void>(stage_->trial(trial()));
         const auto asked = std::ranges::find_if(someone_.texts, [](const auto& text) {
-            return text.find(", then go on.") != std::string::npos && text.find("See to the") != std::string::npos;
+            return text.find(", then go on") != std::string::npos && text.find(" the electrodes") != std::string::npos;
         });
         ASSERT_NE(asked, someone_.texts.end());
         const bool stuck = std::string_view(fault) == "stuck-on";
@@ -317,6 +317,36 @@ TEST_F(PilotOutputTest, OfEachFaultTheOperatorReadsWhatItLeavesOfTheOutput) {
         EXPECT_EQ(asked->find("utput", asked->find("utput") + 1), std::string::npos) << "twice: " << *asked;
         EXPECT_THAT(*asked, Not(HasSubstr(".."))) << *asked;
     }
+}
+
+TEST_F(PilotOutputTest, AGraveFaultEndsTheSessionAndIsNotReset) {
+    RecordProperty("hazard", "H2");
+    more_ = "&fault=stuck-on@20.2s..22s";
+    begin();
+    ASSERT_TRUE(stage_->pass(Seconds(19)));
+    operatorTakesTime();
+    EXPECT_THAT(stage_->trial(trial()), refusedSaying("a fault of stuck on ends the session"));
+    EXPECT_EQ(stage_->ended(), PilotEnd::Stopped);
+    EXPECT_THAT(someone_.texts, ElementsAre(HasSubstr("Take the electrodes off the participant"))) << "nobody else";
+    EXPECT_EQ(record_->count(row::kContinue), 0U);
+    const auto fault = bench_->unitFault();
+    ASSERT_TRUE(fault) << "it was reset";
+    EXPECT_EQ(graveCause(fault->causes), FaultCause::StuckOn);
+    ASSERT_THAT(bodies(row::kGate), SizeIs(1));
+    EXPECT_EQ(bodies(row::kGate)[0][row::kEnds], true) << "killed now, the session is over all the same";
+}
+
+TEST_F(PilotOutputTest, AnotherCauseThatComesWhileTheOperatorIsAskedIsShownBeforeTheReset) {
+    RecordProperty("hazard", "H2");
+    more_ = "&fault=open@20.2s..21s&fault=unplug@22s..24s";
+    begin();
+    ASSERT_TRUE(stage_->pass(Seconds(19)));
+    someone_.onAsk = [this](const PilotPrompt& prompt) {
+        if (prompt.to == PromptTo::Operator) bench_->idle(Seconds(6));
+    };
+    accepted(stage_->trial(trial()));
+    EXPECT_THAT(someone_.texts, Contains(HasSubstr("another cause of the fault came meanwhile, device fault")));
+    EXPECT_EQ(record_->count(row::kFault), 1U);
 }
 
 TEST_F(PilotOutputTest, AnAbortIsAskedForItsReasonOnceTheOutputIsOff) {
