@@ -217,7 +217,6 @@ TEST_F(Recorded, GoesOutAsACertificateOnlyIfItIsACalibration) {
         EXPECT_EQ(offered, protocol == "stimulator-calibration");
         if (!offered) continue;
         EXPECT_TRUE(dialog.findChild<QLineEdit*>("exportPlace")->text().endsWith("stimulator-calibration.xml"));
-        EXPECT_IN_TIME(comesTrue([&] { return faultsOf(dialog).empty(); })) << faultsOf(dialog);
         click(*dialog.findChild<QPushButton*>("exportBegin"));
         const auto* says = dialog.findChild<QLabel*>("exportSays");
         ASSERT_IN_TIME(comesTrue([&] { return says->text().contains("no new calibration"); }))
