@@ -21,6 +21,14 @@ bool endedBySafety(const ScriptOutcome& outcome, const Bench& bench) {
     return code == ErrorCode::LimitExceeded || code == ErrorCode::NotArmed || code == ErrorCode::Stopped;
 }
 
+/// Puts a grave fault back into the record of a unit that no bench has open: its safety check did not pass.
+Result<void> leaveUnchecked(const LeftFault& fault, const Clock& clock) {
+    auto record = UnitRecord::open(unitFolders(), fault.unit, clock);
+    if (!record) return failure(record);
+    (*record)->keepFault(*fault.grave, fault.reason);
+    return {};
+}
+
 }  // namespace
 
 std::string declaredLoad(const nlohmann::json& parameters) {
@@ -48,6 +56,7 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
                                                           std::optional<LeftFault>* found) {
     std::unique_ptr<ProtocolRun> run(new ProtocolRun(std::move(given)));
     RunOrder& order = run->order_;
+    const auto acknowledged = std::exchange(order.faultSeen, {});  // from here on a grave fault that this run checks
     order.needed = order.ownNeeds.empty() ? order.declaration.needs : order.ownNeeds;
     order.declaredLoad = order.ownLoad.empty() ? declaredLoad(order.settings.parameters) : order.ownLoad;
     order.about = aboutScript(order);
@@ -66,7 +75,10 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
     if (!order.stops) order.asked = run->bench().stops().mark();
     if (const auto fault = run->presentFault()) {
         if (found != nullptr) *found = fault;
-        if (auto left = run->leaveFault(*fault); !left) return failure(left);
+        order.faultSeen = acknowledged;
+        const auto left = run->leaveFault(*fault);
+        order.faultSeen = left && fault->grave && !fault->unit.empty() ? fault : std::nullopt;
+        if (!left) return failure(left);
     }
     return run;
 }
@@ -107,6 +119,9 @@ Result<void> ProtocolRun::leaveFault(const LeftFault& fault) {
 
 ProtocolRun::~ProtocolRun() {
     if (script_) static_cast<void>(finish());
+    if (!opened_ || !opened_->bench || !order_.faultSeen) return;
+    opened_->bench.reset();  // the check was not even begun
+    static_cast<void>(leaveUnchecked(*order_.faultSeen, *opened_->clock));
 }
 
 Result<void> ProtocolRun::start(RunRequest hooks) {
@@ -197,6 +212,11 @@ RunResult ProtocolRun::finish() {
                                         kept->problems.empty() ? "" : kept->problems.front())});
     endCheck(result);
     result.weighTroubles();
+    if (const auto& unchecked = order_.faultSeen; unchecked && result.verdict() != nameOf(ScriptVerdict::Pass)) {
+        if (auto left = leaveUnchecked(*unchecked, *opened_->clock); !left) result.troubles.push_back(left.error());
+        if (!result.leftIn) result.leftIn = unchecked;
+        result.leftIn->grave = unchecked->grave;
+    }
     // Read from disk, like everything else (hazard H8).
     const auto reader = SessionReader::open(result.session, opened_->seal);
     auto marks = reader ? sessionMarks(*reader) : failure(reader);

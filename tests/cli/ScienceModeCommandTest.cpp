@@ -336,9 +336,17 @@ TEST_F(ScienceModeCommand, AGraveFaultIsResetByASafetyCheckAlone) {
     ASSERT_EXIT_IN_TIME(refused.code, 4) << refused.err;
     expectRefused(refused, 4, {"a fault of limit broken", "44 V were measured", "load-safety with --reset-fault"});
     EXPECT_TRUE(left({}));
+    const auto before = putOut().size();
+    expectRefused(pulse("5", "1000", {"--reset-fault"}), 4,
+                  {"a fault of limit broken", "load-safety with --reset-fault"});
+    EXPECT_EQ(putOut().size(), before);
     const auto check = reset("load-safety");  // it ends at the question for the load, which nobody answers
     EXPECT_THAT(check.err, testing::Not(HasSubstr("44 V were measured")));
-    EXPECT_FALSE(left({})) << check.err;
+    const auto record = accepted(UnitRecord::open(folders, unitOf(serial.text(), uri()), clock_));
+    const auto fault = record->fault();
+    ASSERT_TRUE(fault) << "a check that did not pass resets nothing for good: " << check.err;
+    EXPECT_EQ(graveCause(fault->causes), FaultCause::LimitBroken);
+    EXPECT_EQ(fault->reason.view(), "44 V were measured");
 }
 
 TEST_F(ScienceModeCommand, WithoutATerminalThereIsNoQuestionAndNothingIsDelivered) {

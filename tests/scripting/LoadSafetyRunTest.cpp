@@ -116,6 +116,30 @@ TEST(LoadSafetyRun, OpenShortLooseContactAndSilenceTrip) {
     EXPECT_EQ(outcome.expectedFaults, 4U) << "open, short, loose contact, silence; arming is refused without a fault";
 }
 
+TEST(LoadSafetyRun, ACauseThatComesWithAProvokedFaultIsNotResetWithIt) {
+    RecordProperty("hazard", "H2");
+    double seen_s = 0;
+    const auto run = [&seen_s](LoadSafetyRig& rig) {
+        auto request = rig.request({{"area", "3"}, {"steps", "2"}});
+        request.onCapture = [&](const Capture&) {  // between the fault and its reset
+            if (!rig.bench().faultPersists(FaultCause::OpenElectrode)) return;
+            seen_s = rig.now_s();
+            rig.bench().idle(Seconds(3));
+        };
+        return runProtocol(std::move(request)).value();
+    };
+    LoadSafetyRig clean({});
+    ASSERT_EQ(run(clean).verdict, ScriptVerdict::Pass);
+    ASSERT_GT(seen_s, 0);
+    LoadSafetyRig rig({fmt::format("sim:stimulator?fault=unplug@{:.3f}s..{:.3f}s", seen_s + 0.5, seen_s + 2.5)});
+    const auto outcome = run(rig);
+    ASSERT_TRUE(outcome.error);
+    EXPECT_THAT(outcome.error->message,
+                testing::HasSubstr("open electrode was provoked, and device fault came with it"));
+    EXPECT_TRUE(rig.bench().unitFault());
+    EXPECT_TRUE(rig.outputOff());
+}
+
 TEST(LoadSafetyRun, WithoutAnElectrodeAreaIsIndeterminate) {
     RecordProperty("hazard", "H9");
     LoadSafetyRig rig({}, 1, true);

@@ -124,11 +124,11 @@ bool namesAnElement(std::string_view uri) {
 /// Counts the references in `node` and what is within it; false: one of them is none that is accepted, or it has a
 /// manifest, which is a list of more.
 bool hasSoundReferences(xmlNode* node, int& count) {
-    constexpr int kMost = 4;
+    constexpr int kMaxReferences = 4;
     if (isOf(node, xmlSecNodeManifest)) return false;
     if (isOf(node, xmlSecNodeReference)) {
         const std::unique_ptr<xmlChar, FreesText> uri(xmlGetProp(node, xmlSecAttrURI));
-        if (++count > kMost || !uri || !namesAnElement(reinterpret_cast<const char*>(uri.get()))) return false;
+        if (++count > kMaxReferences || !uri || !namesAnElement(reinterpret_cast<const char*>(uri.get()))) return false;
     }
     for (auto* each = node->children; each != nullptr; each = each->next)
         if (!hasSoundReferences(each, count)) return false;

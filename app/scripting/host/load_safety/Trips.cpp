@@ -1,6 +1,7 @@
 // Provokes on a bench load every fault that must end the output by itself: an open or short circuit, an intermittent
 // contact, a silent control loop (hazards H2, H3).
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "app/scripting/engine/Arming.h"
@@ -33,11 +34,25 @@ Result<void> change(ScriptSession& session, const std::string& to, const std::st
     return bench::changeLoad(session, to, "change-load", request);
 }
 
+/// Resets the fault that was provoked. Errors: NotArmed, also if any other cause came with it.
+Result<void> leaveProvoked(Bench& bench, FaultCause provoked) {
+    bench.idle(Seconds(kTripPoll_s));                 // the loop shows what has come
+    const auto known = bench.telemetry().causesCame;  // read first: `fault` has all that it counts
+    const auto fault = bench.unitFault();
+    if (fault && fault->causes == bitOf(provoked)) return bench.resetFault(known);
+    const auto others = fault ? fault->causes & ~bitOf(provoked) : 0U;
+    if (others == 0) return fail(ErrorCode::NotArmed, "the fault that was provoked, {}, is gone", nameOf(provoked));
+    const auto other = graveCause(others).value_or(FaultCause(std::countr_zero(others)));
+    return fail(ErrorCode::NotArmed, "the fault is not reset: {} was provoked, and {} came with it", nameOf(provoked),
+                nameOf(other));
+}
+
 /// Counts a fault of the bench that was provoked, and removes its cause.
-Result<void> acknowledge(ScriptSession& session, const std::string& load, const std::string& request) {
+Result<void> acknowledge(ScriptSession& session, FaultCause provoked, const std::string& load,
+                         const std::string& request) {
     session.noteExpectedFault();
     if (auto fitted = change(session, load, request); !fitted) return fitted;
-    return session.bench().resetFault();
+    return leaveProvoked(session.bench(), provoked);
 }
 
 std::string commandFor(std::string_view becomes, const std::string& load) {
@@ -166,7 +181,7 @@ Result<Json> tripWhileDelivering(ScriptSession& session, const std::string& beco
         if (!shown) return failure(shown);
         seenOpen = std::move(*shown);
     }
-    if (auto cleared = acknowledge(session, load, fmt::format("Fit {} again, then confirm", load)); !cleared) {
+    if (auto cleared = acknowledge(session, cause, load, fmt::format("Fit {} again, then confirm", load)); !cleared) {
         return failure(cleared);
     }
     // One train detects the change; with an intermittent contact, some trains still find the contact good.
@@ -200,7 +215,7 @@ Result<Json> tripBySilence(ScriptSession& session, const std::string& load, doub
         return failure(waited);
     }
     session.noteExpectedFault();
-    if (auto reset = bench.resetFault(); !reset) return failure(reset);
+    if (auto reset = leaveProvoked(bench, FaultCause::LoopSilent); !reset) return failure(reset);
     const bool quiet = seen.trainsDelivered <= delivered + 1;  // one train may already have been under way
     const auto after = bench.silencedAfter();
     return trial("dead-man", true, quiet && after.has_value(), after ? after->count() : kNaN, seen.reason.view());
