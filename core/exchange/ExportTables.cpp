@@ -200,7 +200,12 @@ ResultRecord<ExportTrain> describeTrain() {
     return all;
 }
 
-const ResultRecord<ExportTrain>& trainRecord() { return builtOnce<describeTrain>(); }
+// Never destroyed, like trainTable(): a thread that hangs in another's library may use them until the program has ended
+// (lsl).
+const ResultRecord<ExportTrain>& trainRecord() {
+    static const auto* record = new ResultRecord<ExportTrain>(describeTrain());
+    return *record;
+}
 
 ExportTable rowTable(const char* name, const char* title, describe::Columns columns) {
     columns.insert(columns.begin(), number(kTimeTitle, "time_s", "s"));
@@ -213,8 +218,8 @@ ExportTable rowTable(const char* name, const char* title, describe::Columns colu
 std::string_view nameOf(ExportTrain::Outcome outcome) noexcept { return wordFor(kOutcomes, outcome); }
 
 const ExportTable& trainTable() {
-    static const ExportTable table{"trains", "Trains", trainRecord().columns()};
-    return table;
+    static const auto* table = new ExportTable{"trains", "Trains", trainRecord().columns()};
+    return *table;
 }
 
 void trainCells(const ExportTrain& train, std::vector<ExportCell>& cells) {
