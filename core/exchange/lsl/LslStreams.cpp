@@ -58,6 +58,7 @@ public:
         if (!thread_.joinable()) return true;
         const bool ended = ended_.wait_until(until) == std::future_status::ready;
         ended ? thread_.join() : thread_.detach();
+        ended_ = {};  // it keeps the work, which keeps the owner of this
         return ended;
     }
 
