@@ -53,7 +53,7 @@ private:
     /// Returns the certificate entered in the form. Errors: InvalidArgument, one sentence.
     [[nodiscard]] Result<Certificate> written() const;
     void judge();
-    /// Returns the text of a field; empty if a file that was read wrote it and nobody changed it.
+    /// Returns what the person wrote in a field; empty if the text came from a file and is unchanged.
     [[nodiscard]] std::string typed(const std::string& field) const;
     /// Fills the form from a digital certificate; what it does not state is taken from what was typed into the form.
     /// One of a shunt or a probe is added to the oscilloscope's.

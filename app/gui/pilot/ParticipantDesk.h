@@ -85,7 +85,7 @@ public:
 signals:
     void screenChanged(const tacto::PilotScreen& screen);
     void countsChanged(const tacto::PilotCounts& counts);
-    /// Before the question about it. On simulated devices nobody feels it.
+    /// Called before the question about it. A participant feels nothing from simulated devices.
     void presented(const tacto::FeltPresentation& felt);
     void asked(const tacto::PilotPrompt& prompt, quint64 id);
     void closed(quint64 id);  ///< answered, out of time, stopped or cancelled

@@ -432,7 +432,7 @@ private:
 
     const ExportSource& source_;
     const Calibration& of_;
-    std::string unknown_;  ///< what nobody entered, with commas
+    std::string unknown_;  ///< the items that were not entered, separated by commas
 };
 
 Result<void> write(const ExportSource& source, const std::filesystem::path& draft, ExportReport&) {

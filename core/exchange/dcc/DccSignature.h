@@ -2,7 +2,7 @@
 // Processing 1.1), checked by xmlsec.
 //
 // A signature says that nothing was changed since it was made, and with which key. Whose key that is says the
-// certificate in it, which nobody here vouches for: the program knows no authorities.
+// certificate in it, which is not checked against any authority.
 //
 // Thread-safety: any thread.
 #pragma once
