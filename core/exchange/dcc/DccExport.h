@@ -2,7 +2,7 @@
 // quantities in D-SI 2.2.1. A part of the exports.
 //
 // It says what the printed certificate says (app/report/CertificatePages.h): as found and as left, set, delivered and
-// error with U, k and coverage probability. Items that the schema demands and that were not entered are "unknown" ("ZZ" for the
+// error with U, k and coverage probability. What was not entered is "unknown" ("ZZ" for the
 // country, which ISO 3166 leaves to its users), and a statement lists that. It is not signed and says so.
 //
 // Thread-safety: as ExportSource.
