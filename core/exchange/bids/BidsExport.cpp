@@ -60,12 +60,7 @@ private:
     }
 
     static Result<void> writeRow(TsvOut& out, std::span<const ExportCell> cells) {
-        for (const auto& cell : cells) {
-            if (const auto* number = std::get_if<double>(&cell))
-                out.number(*number);
-            else
-                out.text(std::get<std::string>(cell));
-        }
+        for (const auto& cell : cells) out.cell(cell);
         return out.endRow();
     }
 

@@ -298,13 +298,7 @@ private:
             const auto seen = seen_.find(at);
             const Row row{train, causes_[at], seen == seen_.end() ? none : seen->second, stimulusOf(train)};
             ++at;
-            for (const auto& column : all) {
-                const auto cell = column.cell(row);
-                if (const auto* number = std::get_if<double>(&cell))
-                    out.number(*number);
-                else
-                    out.text(std::get<std::string>(cell));
-            }
+            for (const auto& column : all) out.cell(column.cell(row));
             return out.endRow();
         });
         return read ? out.end() : read;

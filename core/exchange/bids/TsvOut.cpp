@@ -82,6 +82,13 @@ void TsvOut::pack(bool last) {
     rows_.clear();
 }
 
+void TsvOut::cell(const ExportCell& value) {
+    if (const auto* number = std::get_if<double>(&value))
+        this->number(*number);
+    else
+        text(std::get<std::string>(value));
+}
+
 Result<void> TsvOut::endRow() {
     rows_ += '\n';
     begun_ = false;

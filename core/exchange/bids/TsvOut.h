@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/exchange/ExportSource.h"
 #include "core/exchange/PieceOut.h"
 
 namespace tacto {
@@ -21,6 +22,7 @@ public:
 
     void number(double value);
     void text(std::string_view value);
+    void cell(const ExportCell& value);
     /// Errors: Io naming the file.
     [[nodiscard]] Result<void> endRow();
     /// Writes what is left; nothing may follow.
