@@ -174,7 +174,8 @@ int runExport(const QCommandLineParser& parser) {
 const Command kExport{
     "export",
     "{SESSION --format FORMAT --out PATH [--passphrase-file F] [--json] | "
-    "{SESSION | SERIAL} --format dcc --out FILE [--json] | "
+    "SESSION --format dcc --out FILE [--json] | "
+    "SERIAL --format dcc --out FILE [--json] | "
     "STUDY --format bids --out DIR [--with LIST] [--passphrase-file F]}",
     "A session as files for other programs, a calibration as digital certificate; a study's results as BIDS",
     declareExport, runExport};

@@ -1,6 +1,6 @@
 // ExportWatch.h - how an export learns that it was cancelled, and says how far it is.
 //
-// Thread-safety: both are called on the thread that exports.
+// Thread-safety: both are called on the thread that exports; `stopped` also on another while SQLite asks nothing.
 #pragma once
 
 #include <functional>

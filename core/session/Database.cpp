@@ -1,11 +1,16 @@
 #include "core/session/Database.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <span>
 #include <sqlite3.h>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "core/base/WholeFile.h"
@@ -119,14 +124,46 @@ Result<void> Database::execute(const std::string& sql) {
     return {};
 }
 
+namespace {
+
+/// Asks whether to stop: SQLite's thread every few instructions of its machine, and where one of them takes long, as
+/// that which checks all pages of a table, a thread of its own.
+class Asking {
+public:
+    Asking(sqlite3* database, const std::function<bool()>& stopped)
+        : database_(database), stopped_(stopped), watch_([this](const std::stop_token& ended) { watch(ended); }) {
+        constexpr int kInstructions = 1000;
+        sqlite3_progress_handler(database_, kInstructions, &Asking::ask, this);
+    }
+    ~Asking() { sqlite3_progress_handler(database_, 0, nullptr, nullptr); }
+    Asking(const Asking&) = delete;
+    Asking& operator=(const Asking&) = delete;
+
+private:
+    static int ask(void* self) {
+        auto& asking = *static_cast<Asking*>(self);
+        asking.asked_ = true;
+        return asking.stopped_() ? 1 : 0;
+    }
+    void watch(const std::stop_token& ended) {
+        constexpr std::chrono::milliseconds kSilence{100};
+        std::mutex mutex;
+        std::unique_lock lock(mutex);
+        std::condition_variable_any never;
+        while (!never.wait_for(lock, ended, kSilence, [&] { return ended.stop_requested(); }))
+            if (!asked_.exchange(false) && stopped_()) sqlite3_interrupt(database_);
+    }
+
+    sqlite3* const database_;
+    const std::function<bool()>& stopped_;
+    std::atomic<bool> asked_ = true;
+    std::jthread watch_;  // declared last: ends first
+};
+
+}  // namespace
+
 std::shared_ptr<void> Database::interruptedBy(const std::function<bool()>& stopped) const {
-    if (!stopped) return nullptr;
-    constexpr int kInstructions = 1000;  // of SQLite's machine, or pages
-    sqlite3_progress_handler(
-        database_.get(), kInstructions,
-        [](void* asked) { return (*static_cast<const std::function<bool()>*>(asked))() ? 1 : 0; },
-        const_cast<std::function<bool()>*>(&stopped));
-    return {database_.get(), [](sqlite3* database) { sqlite3_progress_handler(database, 0, nullptr, nullptr); }};
+    return stopped ? std::make_shared<Asking>(database_.get(), stopped) : nullptr;
 }
 
 bool Database::hasMoved() const noexcept {

@@ -41,8 +41,8 @@ struct VerifyReport {
 /// True if a report was changed after it was signed, and not signed again.
 [[nodiscard]] bool reportChanged(const VerifyReport& report);
 
-/// Every readable file gets a report. `stopped` is asked at every row. Errors: NotFound; Io if the file cannot be read;
-/// Stopped.
+/// Every readable file gets a report. `stopped` is asked at every row, and while the database is checked at least every
+/// 0.2 s, then by another thread too. Errors: NotFound; Io if the file cannot be read; Stopped.
 [[nodiscard]] Result<VerifyReport> verifySession(const std::filesystem::path& path,
                                                  const std::function<bool()>& stopped = {});
 
