@@ -159,7 +159,9 @@ Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry
     if (opened->lsl) {
         auto begun =
             opened->lsl->begin(*opened->session, opened->about, opened->files.session.stem().string(), opened->clock);
-        if (!begun) return failure(begun);
+        if (!begun)
+            return fail(begun.error().code, "{}; {} stays, with nothing put out in it", begun.error().message,
+                        opened->files.session.string());
     }
     return opened;
 }

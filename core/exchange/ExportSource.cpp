@@ -128,8 +128,7 @@ json streamJson(const ExportStream& stream) {
 class ShownTrains {
 public:
     void add(const SessionCaptureInfo& capture) {
-        constexpr double kLatency_s = 0.02;  // from the command to the pulse
-        const TimeInterval during{capture.start_s - kLatency_s,
+        const TimeInterval during{capture.start_s - kTrainLatency_s,
                                   std::isnan(capture.trigger_s)
                                       ? capture.start_s + static_cast<double>(capture.samples) / capture.rate_hz
                                       : capture.trigger_s};

@@ -75,6 +75,8 @@ struct ExportCapture {
     double told = kNaN;  ///< amplitude in V or mA that the device was sent for the train that it shows; NaN: none
 };
 
+inline constexpr double kTrainLatency_s = 0.02;  ///< most that a pulse comes after its command
+
 /// One train of pulses or burst of vibration, as it was planned, sent and reported.
 struct ExportTrain {
     enum class Outcome {

@@ -80,7 +80,6 @@ public:
     }
 
 private:
-    static constexpr double kLatency_s = 0.02;  // from the command to the pulse
     static constexpr double kEarly_s = 0.001;   // the record's own time base
 
     struct Row {
@@ -177,7 +176,7 @@ private:
     [[nodiscard]] MeasureOptions optionsFor(const Capture& capture) const {
         MeasureOptions options;
         const double end_s = capture.start_s + static_cast<double>(capture.samples()) / capture.rate_hz;
-        auto shown = std::ranges::lower_bound(byTime_, capture.start_s - kLatency_s, {},
+        auto shown = std::ranges::lower_bound(byTime_, capture.start_s - kTrainLatency_s, {},
                                               [&](std::size_t i) { return causes_[i].time_s; });
         for (; shown != byTime_.end() && causes_[*shown].time_s < end_s; ++shown) {
             if (const double rate = causes_[*shown].rate_hz; rate > 0) options.intraTrainRate = Hertz(rate);
@@ -191,7 +190,7 @@ private:
             std::ranges::upper_bound(byTime_, t_s + kEarly_s, {}, [&](std::size_t i) { return causes_[i].time_s; });
         if (behind == byTime_.begin()) return std::nullopt;
         const auto train = std::prev(behind);
-        if (causes_[*train].time_s < t_s - kLatency_s) return std::nullopt;
+        if (causes_[*train].time_s < t_s - kTrainLatency_s) return std::nullopt;
         return static_cast<std::size_t>(train - byTime_.begin());
     }
 

@@ -125,8 +125,9 @@ public:
 private:
     [[nodiscard]] Result<void> refused(const std::string& name) const {
         const char* why = library_.lastError();
-        return fail(ErrorCode::Device, "liblsl refuses the stream {} ({}), so nothing is begun; without LSL it can be",
-                    name, why != nullptr && *why != '\0' ? why : "it does not say why");
+        return fail(ErrorCode::Device,
+                    "liblsl refuses the stream {} ({}), so nothing is put out; without LSL it can be", name,
+                    why != nullptr && *why != '\0' ? why : "it does not say why");
     }
     void count(std::int32_t error, std::uint64_t& sent) {
         if (error != 0) {
@@ -238,6 +239,7 @@ struct LslStreams::State {
                 return {};
             };
             while (const auto next = take()) {
+                keep(sent);
                 if (const auto* frame = std::get_if<Frame>(&*next))
                     frames.push(frame->values, matched->stampOf(frame->t_s), sent.frames);
                 else if (const auto* marker = std::get_if<Marker>(&*next))
@@ -250,6 +252,10 @@ struct LslStreams::State {
             static_cast<void>(join.end(pushTrain));
             if (markers.isHeard() || frames.isHeard() || trains.isHeard()) std::this_thread::sleep_for(kLastSamples);
         }
+        keep(sent);
+    }
+    /// What was sent is known also where the library does not return from the next call.
+    void keep(LslTally sent) {
         const std::scoped_lock lock(mutex);
         sent.notes = std::move(tally.notes);
         tally = std::move(sent);
@@ -272,6 +278,10 @@ struct LslStreams::State {
                 nlohmann::json body{{"text", note.text}, {"stream", order.markers}};
                 if (!note.stamped) body["stamp"] = "of no use: the time is when it came";
                 if (note.shortened) body["shortened"] = true;
+                {
+                    const std::scoped_lock lock(mutex);
+                    ++tally.notes.taken;
+                }
                 const std::scoped_lock lock(noteMutex);
                 if (writer != nullptr) static_cast<void>(writer->event(note.at, kOperatorMarkEvent, body));
             });
@@ -287,6 +297,7 @@ nlohmann::json toJson(const LslTally& tally) {
             {"unheard", tally.unheard},
             {"dropped", tally.dropped},
             {"refused", tally.refused},
+            {"unsent", tally.unsent},
             {"notes",
              {{"taken", tally.notes.taken},
               {"left", tally.notes.left},
@@ -302,16 +313,18 @@ std::string lslSentence(const LslTally& tally) {
     std::string said = "LSL: ";
     if (order.outlets) {
         said += fmt::format("{} markers, {} frames and {} trains were sent", tally.markers, tally.frames, tally.trains);
-        if (tally.unheard > 0) said += fmt::format("; {} of them while nobody recorded", tally.unheard);
+        if (tally.unheard > 0) said += fmt::format("; {} of them while no program recorded them", tally.unheard);
         if (tally.dropped > 0) said += fmt::format("; {} were dropped, as liblsl was slower", tally.dropped);
         if (tally.refused > 0) said += fmt::format("; {} were refused by liblsl", tally.refused);
-        if (tally.unheard + tally.dropped + tally.refused == 0) said += ", and nothing was lost";
+        if (tally.unsent > 0) said += fmt::format("; {} were not sent", tally.unsent);
+        if (tally.unheard + tally.dropped + tally.refused == 0 && !tally.hung) said += ", and nothing was lost";
         said += order.markers.empty() ? "" : "; ";
     }
     if (!order.markers.empty()) {
         const auto& notes = tally.notes;
         said += fmt::format("{} notes came from \"{}\"", notes.taken, order.markers);
-        if (notes.streams == 0) said += notes.trouble.empty() ? ", which was never found" : "; " + notes.trouble;
+        if (notes.streams == 0 && !tally.hung)
+            said += notes.trouble.empty() ? ", which was never found" : "; " + notes.trouble;
         if (notes.left > 0)
             said +=
                 fmt::format("; {} were left out (empty, or more than {} a second)", notes.left, LslNotes::kPerSecond);
@@ -351,7 +364,7 @@ Result<void> LslStreams::begin(SessionWriter& session, const SessionAbout& about
     auto opened = state.opened.get_future();
     state.sending.start([state = state_] { state->send(); });
     if (opened.wait_for(kOpens) != std::future_status::ready)
-        return fail(ErrorCode::Timeout, "liblsl ({}) has not opened its streams within 5 s, so nothing is begun",
+        return fail(ErrorCode::Timeout, "liblsl ({}) has not opened its streams within 5 s, so nothing is put out",
                     state.library->file.string());
     auto matched = opened.get();
     if (!matched) return failure(matched);
@@ -387,6 +400,7 @@ LslTally LslStreams::end() {
     tally.order = state.order;
     tally.dropped = state.dropped;
     tally.hung = !sent || !noted;
+    tally.unsent = state.waiting.size();
     return tally;
 }
 

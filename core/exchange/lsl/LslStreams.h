@@ -43,6 +43,7 @@ struct LslTally {
     std::uint64_t unheard = 0;                          ///< of these, while nobody listened
     std::uint64_t dropped = 0;                          ///< liblsl was slower than the session
     std::uint64_t refused = 0;                          ///< liblsl returned an error
+    std::uint64_t unsent = 0;                           ///< waited when it did not return at the end
     LslNoteTally notes;
     bool hung = false;  ///< liblsl did not return at the end
     bool operator==(const LslTally&) const = default;
