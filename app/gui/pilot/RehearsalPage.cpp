@@ -207,7 +207,8 @@ void RehearsalPage::judge() {
                          ? tr("The folder is missing. A new one, or that of a rehearsal, is expected.")
                          : lacks;
     begin_->setEnabled(why.isEmpty() && !refused);
-    whyNot_->setText(why);
+    const int blocks = isWholeSession(*form_) ? form_->text("rehearsalBlocks").toInt() : 0;
+    whyNot_->setText(!why.isEmpty() || !person() ? why : tr("With you it takes %1.").arg(sessionLasts(blocks)));
     begin_->setToolTip(
         !why.isEmpty() ? why : tr("Opens both windows. Nothing is delivered before the checklist is answered."));
     begin_->setText(offer_->goesOn() ? tr("Go on with the rehearsal") : tr("Begin rehearsal"));

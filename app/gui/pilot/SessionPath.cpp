@@ -63,7 +63,22 @@ constexpr double kTestTrial_s = 9;    // of the test, until trials have been tim
 constexpr int kTimedTrials = 5;       // so many tell how long a trial takes
 constexpr double kBetween_min = 3.6;  // between two blocks: break, check pulse and drift
 
+bool stepBelongs(int step, int blocks) { return blocks > 0 || std::ranges::count(kTested, step) == 0; }
+
+double stepLasts_min(int step, int blocks) {
+    const double usual_min = kBegins_min[step + 1] - kBegins_min[step];
+    return step == kTest ? usual_min * blocks / kUsualBlocks : usual_min;
+}
+
+QString aboutMinutes(double minutes) { return QObject::tr("about %1 min").arg(std::max(1L, std::lround(minutes))); }
+
 }  // namespace
+
+QString sessionLasts(int blocks) {
+    double all_min = 0;
+    for (int step = 0; step < kSteps; ++step) all_min += stepBelongs(step, blocks) ? stepLasts_min(step, blocks) : 0;
+    return aboutMinutes(all_min);
+}
 
 QString stepAsked(const std::string& prompt, const std::string& phase, bool massager) {
     const bool before = phase.empty() || phase == "checklist";
@@ -135,7 +150,7 @@ void SessionPath::end(SessionEnd how) {
     }
 }
 
-bool SessionPath::has(int step) const { return blocks_ > 0 || std::ranges::count(kTested, step) == 0; }
+bool SessionPath::has(int step) const { return stepBelongs(step, blocks_); }
 
 void SessionPath::count(const PilotCounts& counts) {
     if (blocks_ > 0 && counts.blocks > 0) blocks_ = counts.blocks;
@@ -193,8 +208,7 @@ QString SessionPath::timeLeft() const {
     double rest_min = 0;
     for (int step = step_; step < kSteps; ++step) {
         if (!has(step)) continue;
-        double lasts_min = kBegins_min[step + 1] - kBegins_min[step];
-        if (step == kTest) lasts_min *= static_cast<double>(blocks_) / kUsualBlocks;
+        double lasts_min = stepLasts_min(step, blocks_);
         if (step == kTest && step == step_ && screen_.trials > 0) {
             const double trial_s = trials_ >= kTimedTrials ? trials_s_ / trials_ : kTestTrial_s;
             lasts_min = (screen_.trials - std::max(0, screen_.trial - 1)) * trial_s / 60 +
@@ -204,7 +218,7 @@ QString SessionPath::timeLeft() const {
         }
         rest_min += lasts_min;
     }
-    return tr("about %1 min").arg(std::max(1, int(std::lround(rest_min))));
+    return aboutMinutes(rest_min);
 }
 
 }  // namespace tacto::gui

@@ -14,6 +14,10 @@ class StepList;
 
 inline constexpr int kUsualBlocks = 5;  // usual number of blocks in the test
 
+/// Returns how long a session with a person takes, "about 66 min". `blocks`: number in the test, 0 for thresholds
+/// alone.
+[[nodiscard]] QString sessionLasts(int blocks);
+
 /// Returns the step that begins with the question `prompt`, if the phase does not tell: before the first trains and
 /// after the test. Empty for any other question. `massager`: there are no electrodes.
 [[nodiscard]] QString stepAsked(const std::string& prompt, const std::string& phase, bool massager);

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "app/gui/pilot/DeviceRows.h"
+#include "app/gui/pilot/SessionPath.h"
 #include "app/gui/pilot/UnfinishedOffer.h"
 #include "app/gui/theme/Building.h"
 #include "app/gui/theme/Icons.h"
@@ -133,11 +134,7 @@ QString SessionStartPage::prepare(const Study& study, const Participant& partici
     offer_->offer(unfinished ? *unfinished : std::nullopt);
     title_ = qtext(study.settings().title);
     head_->setText(tr("A session of %1").arg(qtext(code_)));
-    about_->setText(virtual_ ? tr("A virtual participant of seed %1, on the simulated bench. It answers no to the "
-                                  "checklist and is done in seconds.")
-                                   .arg(*participant.virtualSeed)
-                             : tr("The person reads the code on their own screen and says whether it is theirs, before "
-                                  "anything else."));
+    seed_ = participant.virtualSeed.value_or(0);
     devices_->offer(study.settings(), !virtual_);
     judge();
     if (auto* first = form_->findChild<QWidget*>("protocol"); first != nullptr) first->setFocus();
@@ -168,6 +165,13 @@ PilotStart SessionStartPage::start() const {
 
 void SessionStartPage::judge() {
     followOffer(*form_, *offer_);
+    const int blocks = isWholeSession(*form_) ? blocks_ : 0;
+    about_->setText(virtual_ ? tr("A virtual participant of seed %1, on the simulated bench. It answers no to the "
+                                  "checklist and is done in seconds.")
+                                   .arg(seed_)
+                             : tr("The person reads the code on their own screen and says whether it is theirs, before "
+                                  "anything else. With them the whole takes %1.")
+                                   .arg(sessionLasts(blocks)));
     const auto open = checklist_->answers().size();
     const bool whole = virtual_ || checklist_->whole();
     const bool chosen = offer_->isSettled();

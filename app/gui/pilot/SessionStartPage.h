@@ -59,6 +59,7 @@ private:
     QString title_;                       ///< the study's title
     QString study_;                       ///< the study's id
     int blocks_ = 5;
+    std::uint64_t seed_ = 0;  ///< of a virtual participant
     bool virtual_ = false;
     bool rehearsal_ = false;
     bool massager_ = false;

@@ -34,6 +34,7 @@ TEST_F(PathOfASession, WithATestLeadsThroughIt) {
     path.begin(gui::kUsualBlocks, true, false);
     EXPECT_THAT(steps(), AllOf(Contains("Training"), Contains("Test"), Contains("Ratings")));
     EXPECT_EQ(timeLeft(), "about 66 min");
+    EXPECT_EQ(gui::sessionLasts(gui::kUsualBlocks), "about 66 min") << "said before it begins";
     path.end(SessionEnd::Complete);
     EXPECT_EQ(stateOf(kTest), State::Done);
 }
@@ -43,6 +44,7 @@ TEST_F(PathOfASession, OfThresholdsAloneHasNoTestAndCountsNoTimeForIt) {
     EXPECT_THAT(steps(), AllOf(Contains("Thresholds and range"), Not(Contains("Training")), Not(Contains("Test")),
                                Not(Contains("Ratings"))));
     EXPECT_EQ(timeLeft(), "about 27 min");
+    EXPECT_EQ(gui::sessionLasts(0), "about 27 min");
     path.clear();
     EXPECT_THAT(steps(), Contains("Test")) << "the next session may have one";
 }
