@@ -152,9 +152,11 @@ void RunPanel::sayHowFar(const QString& format, const QString& left) {
 }
 
 void RunPanel::sayLeft() {
-    const auto more = running_     ? tr("Esc ends the run; what was recorded is kept.")
-                      : benchOpen_ ? tr("Running closes the open bench and opens it again afterwards.")
-                                   : QString();
+    const auto more =
+        running_ ? tr("Esc ends the run; what was recorded is kept.")
+        : benchOpen_
+            ? tr("Running closes the open bench and opens it again afterwards; faults set in it are not the run’s.")
+            : QString();
     left_->setText(more.isEmpty() ? howLong_ : howLong_ + '\n' + more);
 }
 
