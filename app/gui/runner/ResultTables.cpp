@@ -9,6 +9,7 @@
 #include "app/gui/theme/Text.h"
 #include "app/gui/theme/Theme.h"
 #include "app/report/NumberText.h"
+#include "app/report/ShownText.h"
 
 namespace tacto::gui {
 
@@ -100,7 +101,7 @@ void ResultTables::addSentences(const ResultTable& table, const json& sentences)
     const auto texts = sentencesIn(sentences);
     if (texts.isEmpty()) return;
     addHeading(table.title);
-    for (const auto& text : texts) addSentence(text);
+    for (const auto& text : texts) addSentence(capitalised(text));
 }
 
 QLabel* ResultTables::addSentence(const QString& text) {
