@@ -77,6 +77,48 @@ struct tsb_block {
     uint32_t interval_ns; /* between samples in here, as measured; nominal where the board itself triggers them */
 };
 
+/* What encodes in this board; `layout`, `hash` and the refusals are those of tactile_encoder.h beside this folder. */
+struct tsb_encoder {
+    uint8_t mode;    /* enum tsb_mode, as it is from the next START on */
+    uint8_t refusal; /* enum te_refusal: why te_init() refuses the profile in this board; 0: accepted */
+    uint32_t layout; /* TE_LAYOUT */
+    uint32_t hash;   /* of the profile in this board */
+};
+
+/* One frame of the encoder. NaN: absent. */
+struct tsb_reading {
+    uint32_t sequence; /* readings since START, from 0, also those thrown away */
+    uint64_t time_us;  /* since power-up: the middle of its window */
+    uint16_t flags;    /* TSB_READING_... */
+    uint32_t faults;   /* te_fault() when this was written */
+    float roughness;   /* R */
+    float pressure;    /* P */
+    float pressure_pa;
+    float h, v; /* the spectral and the spatial feature */
+};
+
+/* One train that the encoder's gate let pass. */
+struct tsb_train {
+    uint32_t sequence; /* trains since START, from 0, also those thrown away */
+    uint64_t onset_us; /* since power-up */
+    float interval_s;
+    float command_v;
+    float amplitude;  /* V, or mA of a current source */
+    uint8_t shape;    /* enum te_shape */
+    uint8_t negative; /* 1: the leading phase is negative */
+    float width_us, gap_us, recharge_ratio;
+    uint32_t pulses;
+    float pulse_hz;
+};
+
+/* Why no train comes, whenever that changes; faults 0 and refusal 0: nothing keeps them back. */
+struct tsb_silence {
+    uint32_t sequence; /* of these since START, from 0, also those thrown away */
+    uint64_t time_us;  /* since power-up, when this was written */
+    uint32_t faults;   /* te_fault() */
+    uint8_t refusal;   /* enum te_refusal of the train that was due and refused; 0: none */
+};
+
 size_t tsb_encode_identity(uint8_t* frame, uint8_t token, const struct tsb_identity* identity);
 size_t tsb_encode_configuration(uint8_t* frame, uint8_t token, const struct tsb_configuration* configuration);
 size_t tsb_encode_calibration(uint8_t* frame, uint8_t token, const struct tsb_calibration* calibration);
@@ -87,15 +129,21 @@ size_t tsb_encode_refused(uint8_t* frame, uint8_t token, uint8_t command, uint8_
 /* `samples`: count * columns values, sample after sample. */
 size_t tsb_encode_int16(uint8_t* frame, const struct tsb_block* block, const int16_t* samples);
 size_t tsb_encode_int32(uint8_t* frame, const struct tsb_block* block, const int32_t* samples);
+size_t tsb_encode_encoder(uint8_t* frame, uint8_t token, const struct tsb_encoder* encoder);
+size_t tsb_encode_reading(uint8_t* frame, const struct tsb_reading* reading);
+size_t tsb_encode_train(uint8_t* frame, const struct tsb_train* train);
+size_t tsb_encode_silence(uint8_t* frame, const struct tsb_silence* silence);
 /* How many samples fit into one block; 0 for what no block can carry. */
 uint8_t tsb_block_most(uint8_t columns, uint8_t format);
 
-/* A command. `stream` of those that name one; `configuration` of TSB_SET_CONFIGURATION. A type that this version does
- * not know is handed over too, so that it can be refused. */
+/* A command. `stream` of those that name one; `mode` of TSB_SET_ENCODER; `configuration` of TSB_SET_CONFIGURATION. A
+ * type that is not known here is handed over too, so that it can be refused; so is TSB_GET_ENCODER to a board without
+ * an encoder, which answers TSB_REASON_UNKNOWN_COMMAND. */
 struct tsb_command {
     uint8_t type;
     uint8_t token;
     uint8_t stream;
+    uint8_t mode; /* enum tsb_mode, or a number that is none */
     struct tsb_configuration configuration;
 };
 

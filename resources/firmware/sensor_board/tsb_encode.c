@@ -84,6 +84,60 @@ size_t tsb_encode_refused(uint8_t* frame, uint8_t token, uint8_t command, uint8_
     return tsb_seal(&writer);
 }
 
+size_t tsb_encode_encoder(uint8_t* frame, uint8_t token, const struct tsb_encoder* encoder) {
+    struct tsb_writer writer;
+    tsb_begin(&writer, frame, TSB_VERSION_2, TSB_ENCODER);
+    tsb_put_u8(&writer, token);
+    tsb_put_u8(&writer, encoder->mode);
+    tsb_put_u8(&writer, encoder->refusal);
+    tsb_put_u32(&writer, encoder->layout);
+    tsb_put_u32(&writer, encoder->hash);
+    return tsb_seal(&writer);
+}
+
+size_t tsb_encode_reading(uint8_t* frame, const struct tsb_reading* reading) {
+    struct tsb_writer writer;
+    tsb_begin(&writer, frame, TSB_VERSION_2, TSB_READING);
+    tsb_put_u32(&writer, reading->sequence);
+    tsb_put_u64(&writer, reading->time_us);
+    tsb_put_u16(&writer, reading->flags);
+    tsb_put_u32(&writer, reading->faults);
+    tsb_put_f32(&writer, reading->roughness);
+    tsb_put_f32(&writer, reading->pressure);
+    tsb_put_f32(&writer, reading->pressure_pa);
+    tsb_put_f32(&writer, reading->h);
+    tsb_put_f32(&writer, reading->v);
+    return tsb_seal(&writer);
+}
+
+size_t tsb_encode_train(uint8_t* frame, const struct tsb_train* train) {
+    struct tsb_writer writer;
+    tsb_begin(&writer, frame, TSB_VERSION_2, TSB_TRAIN);
+    tsb_put_u32(&writer, train->sequence);
+    tsb_put_u64(&writer, train->onset_us);
+    tsb_put_f32(&writer, train->interval_s);
+    tsb_put_f32(&writer, train->command_v);
+    tsb_put_f32(&writer, train->amplitude);
+    tsb_put_u8(&writer, train->shape);
+    tsb_put_u8(&writer, train->negative);
+    tsb_put_f32(&writer, train->width_us);
+    tsb_put_f32(&writer, train->gap_us);
+    tsb_put_f32(&writer, train->recharge_ratio);
+    tsb_put_u32(&writer, train->pulses);
+    tsb_put_f32(&writer, train->pulse_hz);
+    return tsb_seal(&writer);
+}
+
+size_t tsb_encode_silence(uint8_t* frame, const struct tsb_silence* silence) {
+    struct tsb_writer writer;
+    tsb_begin(&writer, frame, TSB_VERSION_2, TSB_SILENT);
+    tsb_put_u32(&writer, silence->sequence);
+    tsb_put_u64(&writer, silence->time_us);
+    tsb_put_u32(&writer, silence->faults);
+    tsb_put_u8(&writer, silence->refusal);
+    return tsb_seal(&writer);
+}
+
 uint8_t tsb_block_most(uint8_t columns, uint8_t format) {
     const size_t bytes = tsb_format_bytes(format);
     if (bytes == 0 || !columns_fit(columns)) return 0;

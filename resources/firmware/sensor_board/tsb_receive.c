@@ -24,16 +24,29 @@ static int read_configuration(const uint8_t* bytes, size_t size, struct tsb_conf
     return 1;
 }
 
+/* Each type of frame has the version that brought it; one that is not known here may have either. */
+static int version_fits(uint8_t version, uint8_t type) {
+    if (type == TSB_GET_ENCODER || type == TSB_SET_ENCODER) return version == TSB_VERSION_2;
+    if (type >= TSB_HELLO && type <= TSB_GET_STATUS) return version == TSB_VERSION;
+    return version == TSB_VERSION || version == TSB_VERSION_2;
+}
+
 static int read_command(const uint8_t* bytes, size_t size, struct tsb_command* command) {
     command->type = bytes[1];
     command->token = bytes[2];
     command->stream = 0;
+    command->mode = TSB_MODE_OFF;
     switch (command->type) {
         case TSB_HELLO:
         case TSB_START:
         case TSB_STOP:
         case TSB_GET_STATUS:
+        case TSB_GET_ENCODER:
             return size == HEAD;
+        case TSB_SET_ENCODER:
+            if (size != HEAD + 1U) return 0;
+            command->mode = bytes[HEAD];
+            return 1;
         case TSB_GET_CONFIGURATION:
         case TSB_GET_CALIBRATION:
             if (size != HEAD + 1U) return 0;
@@ -54,7 +67,7 @@ static int read_frame(struct tsb_receiver* receiver, struct tsb_command* command
     const size_t raw = tsb_unstuff(bytes, receiver->used);
     if (raw < HEAD + TSB_CRC_BYTES || raw > TSB_RAW_MOST) return 0;
     if (tsb_get_u32(bytes + raw - TSB_CRC_BYTES) != tsb_crc32(bytes, raw - TSB_CRC_BYTES)) return 0;
-    if (bytes[0] != TSB_VERSION) return 0;
+    if (!version_fits(bytes[0], bytes[1])) return 0;
     return read_command(bytes, raw - TSB_CRC_BYTES, command);
 }
 

@@ -1,4 +1,5 @@
-/* tsb_wire.h - frames of the Tactoscope sensor board protocol, version 1: CRC, COBS, little-endian fields.
+/* tsb_wire.h - frames of the Tactoscope sensor board protocol, versions 1 and 2: CRC, COBS, little-endian
+ * fields.
  *
  * The specification is PROTOCOL.md beside this file. C99, no library, no allocation, no floating-point arithmetic, no
  * division of 64-bit numbers: it compiles as it is for any microcontroller with 8-bit bytes and IEEE 754 floats.
@@ -18,7 +19,8 @@
 extern "C" {
 #endif
 
-#define TSB_VERSION 1U
+#define TSB_VERSION 1U      /* of every type of frame but those that version 2 added */
+#define TSB_VERSION_2 2U    /* of the frames of a board that encodes */
 #define TSB_RAW_MOST 254U   /* content with its CRC, before COBS */
 #define TSB_FRAME_MOST 256U /* on the wire: code byte, content, delimiter; four full-speed packets */
 #define TSB_CRC_BYTES 4U
@@ -33,7 +35,9 @@ enum tsb_command_type {
     TSB_GET_CALIBRATION = 0x04,
     TSB_START = 0x05,
     TSB_STOP = 0x06,
-    TSB_GET_STATUS = 0x07
+    TSB_GET_STATUS = 0x07,
+    TSB_GET_ENCODER = 0x08, /* version 2 */
+    TSB_SET_ENCODER = 0x09  /* version 2 */
 };
 
 /* Board to host */
@@ -43,8 +47,12 @@ enum tsb_reply_type {
     TSB_CALIBRATION = 0x44,
     TSB_DONE = 0x45,
     TSB_STATUS = 0x46,
+    TSB_ENCODER = 0x47, /* version 2 */
     TSB_REFUSED = 0x4F,
-    TSB_DATA = 0x50
+    TSB_DATA = 0x50,
+    TSB_READING = 0x51, /* version 2 */
+    TSB_TRAIN = 0x52,   /* version 2 */
+    TSB_SILENT = 0x53   /* version 2 */
 };
 
 enum tsb_kind { TSB_KIND_ACCELERATION = 0, TSB_KIND_FORCE = 1, TSB_KIND_TAXELS = 2 };
@@ -58,9 +66,14 @@ enum tsb_reason {
     TSB_REASON_HARDWARE = 5
 };
 
+enum tsb_mode { TSB_MODE_OFF = 0, TSB_MODE_ENCODE = 1 };
+
 #define TSB_STREAM_ENABLED 0x01U    /* flag of a configuration */
 #define TSB_STREAM_CALIBRATED 0x01U /* flag of a calibration */
 #define TSB_STATUS_RUNNING 0x01U    /* flag of a status */
+#define TSB_READING_CONTACT 0x0001U /* flags of a reading */
+#define TSB_READING_SLIDING 0x0002U
+#define TSB_READING_SLIDING_ASSUMED 0x0004U /* no rest is known to tell sliding from */
 
 /* Bytes of one value in `format`; 0 for a format that does not exist. */
 size_t tsb_format_bytes(uint8_t format);

@@ -91,6 +91,30 @@ static void put_blocks(struct output* out) {
     put(out, frame, tsb_encode_int32(frame, &block, wide));
 }
 
+static void put_encoder(struct output* out) {
+    static const struct tsb_encoder encoder = {TSB_MODE_ENCODE, 0, 1U, 0x89ABCDEFU};
+    static const struct tsb_train train = {258U, 5000000U, 0.5F, 13.5F, 6.75F, 1, 1, 200.0F, 50.0F, 10.0F, 10U, 100.0F};
+    static const struct tsb_silence faulty = {3U, 6000000U, 2U | 8U, 0};
+    static const struct tsb_silence refused = {4U, 7000000U, 0U, 16};
+    static const uint8_t absent[4] = {0x00, 0x00, 0xC0, 0x7F}; /* a quiet NaN */
+    uint8_t frame[TSB_FRAME_MOST];
+    struct tsb_reading reading;
+    put(out, frame, tsb_encode_encoder(frame, 9, &encoder));
+    reading.sequence = 70000U;
+    reading.time_us = 8589934592ULL;
+    reading.flags = TSB_READING_CONTACT | TSB_READING_SLIDING_ASSUMED;
+    reading.faults = 0U;
+    reading.roughness = 0.625F;
+    reading.pressure = 0.25F;
+    reading.pressure_pa = 10000.0F;
+    reading.h = 0.03125F;
+    reading.v = tsb_get_f32(absent);
+    put(out, frame, tsb_encode_reading(frame, &reading));
+    put(out, frame, tsb_encode_train(frame, &train));
+    put(out, frame, tsb_encode_silence(frame, &faulty));
+    put(out, frame, tsb_encode_silence(frame, &refused));
+}
+
 size_t tacto_replay(const uint8_t* in, size_t size, uint8_t* out, size_t most) {
     struct output output;
     struct tsb_receiver receiver = {{0}, 0, 0, 0};
@@ -104,12 +128,14 @@ size_t tacto_replay(const uint8_t* in, size_t size, uint8_t* out, size_t most) {
     put_descriptions(&output);
     put_states(&output);
     put_blocks(&output);
+    put_encoder(&output);
     for (i = 0; i < size; ++i) {
         if (!tsb_receive(&receiver, in[i], &command)) continue;
         if (command.type == TSB_SET_CONFIGURATION) {
             put(&output, frame, tsb_encode_configuration(frame, command.token, &command.configuration));
         } else {
-            put(&output, frame, tsb_encode_done(frame, command.token, command.type, command.stream));
+            put(&output, frame,
+                tsb_encode_done(frame, command.token, command.type, command.stream + 256U * command.mode));
         }
     }
     return output.overflow ? 0 : output.used;
