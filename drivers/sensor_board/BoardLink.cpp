@@ -16,7 +16,9 @@ constexpr Word<Command> kCommandWords[] = {{"HELLO", Command::Hello},
                                            {"GET_CALIBRATION", Command::GetCalibration},
                                            {"START", Command::Start},
                                            {"STOP", Command::Stop},
-                                           {"GET_STATUS", Command::GetStatus}};
+                                           {"GET_STATUS", Command::GetStatus},
+                                           {"GET_ENCODER", Command::GetEncoder},
+                                           {"SET_ENCODER", Command::SetEncoder}};
 }  // namespace
 
 std::string_view nameOf(Command command) noexcept { return wordFor(kCommandWords, command, "a command"); }

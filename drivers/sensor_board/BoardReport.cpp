@@ -26,6 +26,8 @@ SensorBoardReport together(const SensorBoardReport& before, const SensorBoardRep
     sum.line.tooLong += before.line.tooLong;
     sum.dropped += before.dropped;
     sum.foreign += before.foreign;
+    sum.encodedLost += before.encodedLost;
+    sum.encodedLate += before.encodedLate;
     sum.clockSteps += before.clockSteps;
     return sum;
 }
@@ -33,7 +35,7 @@ SensorBoardReport together(const SensorBoardReport& before, const SensorBoardRep
 std::uint64_t lossesOf(const SensorBoardReport& report) noexcept {
     const auto sum = sumOf(report);
     return sum.lostSamples + sum.lostBlocks + sum.late + sum.unsound + report.line.bad() + report.dropped +
-           report.foreign;
+           report.foreign + report.encodedLost + report.encodedLate;
 }
 
 DeviceReport rowsOf(const SensorBoardReport& report) noexcept {
@@ -45,8 +47,9 @@ DeviceReport rowsOf(const SensorBoardReport& report) noexcept {
     rows.add({"samples", "samples", asNumber(sum.samples), ""});
     rows.add({"samples_lost", "samples lost", asNumber(sum.lostSamples), ""});
     rows.add({"gaps", "gaps", asNumber(sum.gaps), ""});
-    rows.add({"frames_lost", "frames lost", asNumber(sum.lostBlocks), ""});
-    rows.add({"frames_unused", "frames late or unsound", asNumber(sum.late + sum.unsound + report.foreign), ""});
+    rows.add({"frames_lost", "frames lost", asNumber(sum.lostBlocks + report.encodedLost), ""});
+    rows.add({"frames_unused", "frames late or unsound",
+              asNumber(sum.late + sum.unsound + report.foreign + report.encodedLate), ""});
     rows.add({"crc_errors", "CRC errors", asNumber(report.line.badCrc), ""});
     rows.add({"malformed", "malformed frames", asNumber(report.line.malformed + report.line.tooLong), ""});
     rows.add({"bytes_dropped", "bytes read too late", asNumber(report.dropped), ""});

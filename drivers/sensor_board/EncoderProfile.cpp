@@ -213,6 +213,29 @@ std::string_view wordsOf(te_refusal refusal) noexcept {
     return {};
 }
 
+std::string silenceWords(std::uint32_t faults, std::uint32_t refusal) {
+    constexpr std::pair<std::uint32_t, std::string_view> kFaults[] = {
+        {TE_FAULT_STOPPED, "a stop"},
+        {TE_FAULT_STALE, "data that are older than 100 ms"},
+        {TE_FAULT_FUTURE, "a stamp more than 100 ms ahead"},
+        {TE_FAULT_STUCK, "a sensor that repeats itself"},
+        {TE_FAULT_IMPLAUSIBLE, "a reading that no fingertip gives"},
+        {TE_FAULT_RESTING, "the rest of 8 s after a start"},
+        {TE_FAULT_PROFILE, "a profile that it refuses"}};
+    std::string words;
+    const auto add = [&](std::string_view phrase) { words += fmt::format("{}{}", words.empty() ? "" : ", ", phrase); };
+    for (const auto& [bit, phrase] : kFaults) {
+        if ((faults & bit) != 0) add(phrase);
+        faults &= ~bit;
+    }
+    if (faults != 0) add(fmt::format("faults {:#x}, which are not known here", faults));
+    if (refusal == TE_ACCEPTED) return words;
+    const auto why = wordsOf(static_cast<te_refusal>(refusal));
+    add(why.empty() ? fmt::format("a train that it refuses for reason {}", refusal)
+                    : fmt::format("a train that it refuses: {}", why));
+    return words;
+}
+
 Result<te_profile> encoderProfile(std::span<const StreamInfo> streams, const RoughnessSettings& roughness,
                                   const EncodingProfile& encoding, const EncoderOutput& output,
                                   std::string_view serial) {

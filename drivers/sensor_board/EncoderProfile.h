@@ -38,4 +38,8 @@ struct EncoderOutput {
 /// Returns why the encoder refuses, in words; empty for TE_ACCEPTED.
 [[nodiscard]] std::string_view wordsOf(te_refusal refusal) noexcept;
 
+/// Returns why no train comes, in words, from te_fault() and the refusal of a train that was due; empty if nothing
+/// keeps trains back.
+[[nodiscard]] std::string silenceWords(std::uint32_t faults, std::uint32_t refusal);
+
 }  // namespace tacto

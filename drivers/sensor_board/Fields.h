@@ -18,6 +18,7 @@ public:
     explicit FieldReader(std::span<const std::uint8_t> bytes) noexcept : bytes_(bytes) {}
 
     [[nodiscard]] std::uint8_t u8() noexcept { return static_cast<std::uint8_t>(little(1)); }
+    [[nodiscard]] std::uint16_t u16() noexcept { return static_cast<std::uint16_t>(little(2)); }
     [[nodiscard]] std::uint32_t u32() noexcept { return static_cast<std::uint32_t>(little(4)); }
     [[nodiscard]] std::uint64_t u64() noexcept { return little(8); }
     [[nodiscard]] double f32() noexcept { return static_cast<double>(std::bit_cast<float>(u32())); }

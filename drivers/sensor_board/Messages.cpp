@@ -206,6 +206,75 @@ std::optional<DataBlock> readBlock(const Frame& frame) noexcept {
     return block;
 }
 
+Result<EncoderState> readEncoder(const Frame& frame) {
+    auto in = fieldsOf(frame);
+    EncoderState state;
+    const auto mode = in.u8();
+    state.encodes = mode == 1;
+    state.refusal = in.u8();
+    state.layout = in.u32();
+    state.hash = in.u32();
+    if (!in.whole()) return wrong("its ENCODER has {} bytes; 11 were expected", frame.payload.size());
+    if (mode > 1) return wrong("its encoder is in mode {}; 0 or 1 was expected", mode);
+    return state;
+}
+
+std::optional<BoardReading> readReading(const Frame& frame) noexcept {
+    FieldReader in(frame.payload);
+    BoardReading reading;
+    reading.sequence = in.u32();
+    reading.time_us = in.u64();
+    const unsigned flags = in.u16();
+    reading.contact = (flags & 1U) != 0;
+    reading.sliding = (flags & 2U) != 0;
+    reading.slidingAssumed = (flags & 4U) != 0;
+    reading.faults = in.u32();
+    reading.R = in.f32();
+    reading.P = in.f32();
+    reading.pressure_pa = in.f32();
+    reading.h = in.f32();
+    reading.v = in.f32();
+    const auto share = [](double x) { return std::isnan(x) || (x >= 0 && x <= 1); };
+    const bool finite = !std::isinf(reading.pressure_pa) && !std::isinf(reading.h) && !std::isinf(reading.v);
+    if (!in.whole() || flags > 7 || !share(reading.R) || !share(reading.P) || !finite) return std::nullopt;
+    return reading;
+}
+
+std::optional<BoardTrain> readTrain(const Frame& frame) noexcept {
+    FieldReader in(frame.payload);
+    BoardTrain train;
+    train.sequence = in.u32();
+    train.onset_us = in.u64();
+    train.interval_s = in.f32();
+    train.command_v = in.f32();
+    train.amplitude = in.f32();
+    train.shape = in.u8();
+    const auto negative = in.u8();
+    train.negative = negative != 0;
+    train.width_us = in.f32();
+    train.gap_us = in.f32();
+    train.rechargeRatio = in.f32();
+    train.pulses = in.u32();
+    train.rate_hz = in.f32();
+    if (!in.whole() || train.shape > 2 || negative > 1 || train.pulses == 0) return std::nullopt;
+    for (const double above : {train.interval_s, train.command_v, train.amplitude, train.width_us, train.rate_hz})
+        if (!(above > 0 && std::isfinite(above))) return std::nullopt;
+    for (const double value : {train.gap_us, train.rechargeRatio})
+        if (!(value >= 0 && std::isfinite(value))) return std::nullopt;
+    return train;
+}
+
+std::optional<BoardSilence> readSilence(const Frame& frame) noexcept {
+    FieldReader in(frame.payload);
+    BoardSilence silence;
+    silence.sequence = in.u32();
+    silence.time_us = in.u64();
+    silence.faults = in.u32();
+    silence.refusal = in.u8();
+    if (!in.whole()) return std::nullopt;
+    return silence;
+}
+
 std::vector<std::uint8_t> configurationPayload(const StreamConfiguration& configuration) {
     std::vector<std::uint8_t> bytes{configuration.stream,
                                     static_cast<std::uint8_t>(configuration.enabled ? 1 : 0),

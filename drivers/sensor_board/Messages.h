@@ -1,4 +1,4 @@
-// Messages.h - turns a board's payloads into values (PROTOCOL.md, sections 3 to 5). Pure: no I/O, no state.
+// Messages.h - turns a board's payloads into values (PROTOCOL.md, sections 3 to 5 and 7). Pure: no I/O, no state.
 //
 // Nothing here trusts the board: a wrong payload length, a field out of range, a scale that is not a number or a unit
 // that does not fit the kind of stream is refused in one sentence.
@@ -81,6 +81,42 @@ struct DataBlock {
     std::span<const std::uint8_t> samples;
 };
 
+/// What encodes in the board. Layout, hash and refusal are those of resources/firmware/tactile_encoder.
+struct EncoderState {
+    bool encodes = false;      ///< from the next START on
+    std::uint8_t refusal = 0;  ///< enum te_refusal of the profile; 0: accepted
+    std::uint32_t layout = 0;
+    std::uint32_t hash = 0;
+};
+
+/// One frame of the board's encoder. NaN: absent.
+struct BoardReading {
+    std::uint32_t sequence = 0;
+    std::uint64_t time_us = 0;  ///< the middle of its window
+    bool contact = false, sliding = false, slidingAssumed = false;
+    std::uint32_t faults = 0;  ///< TE_FAULT_...
+    double R = 0, P = 0;       ///< 0..1
+    double pressure_pa = 0, h = 0, v = 0;
+};
+
+struct BoardTrain {
+    std::uint32_t sequence = 0;
+    std::uint64_t onset_us = 0;
+    double interval_s = 0, command_v = 0, amplitude = 0;
+    std::uint8_t shape = 0;  ///< enum te_shape
+    bool negative = false;
+    double width_us = 0, gap_us = 0, rechargeRatio = 0;
+    std::uint32_t pulses = 0;
+    double rate_hz = 0;
+};
+
+struct BoardSilence {
+    std::uint32_t sequence = 0;
+    std::uint64_t time_us = 0;
+    std::uint32_t faults = 0;
+    std::uint8_t refusal = 0;  ///< enum te_refusal of a train that was due; 0: none
+};
+
 struct Refusal {
     std::uint8_t command = 0;
     std::uint8_t reason = 0;
@@ -100,6 +136,12 @@ struct Refusal {
 [[nodiscard]] Result<std::uint64_t> readDone(const Frame& frame, Command command);
 /// Reads a block without allocating; returns nothing for a payload that is not a block.
 [[nodiscard]] std::optional<DataBlock> readBlock(const Frame& frame) noexcept;
+[[nodiscard]] Result<EncoderState> readEncoder(const Frame& frame);
+/// These return nothing for another length, unknown flags or shapes, and values that are infinite or out of their
+/// range; of a train also for one that is absent.
+[[nodiscard]] std::optional<BoardReading> readReading(const Frame& frame) noexcept;
+[[nodiscard]] std::optional<BoardTrain> readTrain(const Frame& frame) noexcept;
+[[nodiscard]] std::optional<BoardSilence> readSilence(const Frame& frame) noexcept;
 
 /// Returns the payload of SET_CONFIGURATION without the token.
 [[nodiscard]] std::vector<std::uint8_t> configurationPayload(const StreamConfiguration& configuration);

@@ -9,14 +9,17 @@ namespace tacto::sensorboard {
 PluggedBoard::PluggedBoard(std::unique_ptr<SensorBoard> board, Open open)
     : identity_(board->identity()),
       streams_(board->streams().begin(), board->streams().end()),
+      encoder_(board->encoder()),
       open_(std::move(open)),
       board_(std::move(board)) {
     report_.write(board_->report());
 }
 
 Result<void> PluggedBoard::read(std::span<SampleBlock> blocks) {
+    encoded_.clear();
     if (!board_) return fail(ErrorCode::Device, "{} {} is not open", identity_.name, identity_.serial);
     auto taken = board_->read(blocks);
+    encoded_ = board_->encoded();
     report_.write(together(before_, board_->report()));
     return taken;
 }
@@ -36,6 +39,11 @@ Result<void> PluggedBoard::reconnect() {
         return fail(ErrorCode::Device,
                     "{} {} came back with other streams than it had; close the bench and open it again", identity_.name,
                     identity_.serial);
+    }
+    if (found.encoder() != encoder_) {
+        return fail(ErrorCode::Device,
+                    "{} {} came back with another profile in its encoder; close the bench and open it again",
+                    identity_.name, identity_.serial);
     }
     board_ = std::move(*opened);
     return {};

@@ -1,8 +1,8 @@
 // PluggedBoard.h - the sensor board that the driver hands out; it can be opened again, by its serial number, after it
 // was unplugged.
 //
-// The board that comes back must be the same one with the same settings, so that the streams of a session that records
-// them do not change. The counts in its reports continue.
+// The board that comes back must be the same one with the same settings and the same profile in its encoder, so that
+// the streams of a session that records them do not change. The counts in its reports continue.
 //
 // Thread-safety: as TactileSensor; deviceReport() from any thread.
 #pragma once
@@ -11,12 +11,13 @@
 
 #include "core/base/SpscRing.h"
 #include "core/devices/Device.h"
+#include "core/devices/EncodingSensor.h"
 #include "core/devices/TactileSensor.h"
 #include "drivers/sensor_board/SensorBoard.h"
 
 namespace tacto::sensorboard {
 
-class PluggedBoard final : public TactileSensor, public ReportingDevice, public Reconnecting {
+class PluggedBoard final : public TactileSensor, public EncodingSensor, public ReportingDevice, public Reconnecting {
 public:
     /// Opens the board with that serial number in whatever socket it is now.
     using Open = std::function<Result<std::unique_ptr<SensorBoard>>(const std::string& serial)>;
@@ -26,12 +27,16 @@ public:
     [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return identity_; }
     [[nodiscard]] std::span<const StreamInfo> streams() const noexcept override { return streams_; }
     [[nodiscard]] Result<void> read(std::span<SampleBlock> blocks) override;
+    [[nodiscard]] std::optional<BoardEncoder> encoder() const noexcept override { return encoder_; }
+    [[nodiscard]] const Encoded& encoded() const noexcept override { return encoded_; }
     [[nodiscard]] Result<void> reconnect() override;
     [[nodiscard]] DeviceReport deviceReport() const noexcept override;
 
 private:
     const DeviceIdentity identity_;
     const std::vector<StreamInfo> streams_;
+    const std::optional<BoardEncoder> encoder_;
+    Encoded encoded_;
     const Open open_;
     std::unique_ptr<SensorBoard> board_;  // null after a failed reconnect()
     SensorBoardReport before_;            // sum of the reports of earlier openings

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/Words.h"
+#include "drivers/sensor_board/EncoderProfile.h"
 
 namespace tacto {
 
@@ -34,6 +35,7 @@ Result<void> SensorBoard::read(std::span<SampleBlock> blocks) {
         return fail(ErrorCode::InvalidArgument, "{} has {} streams, but {} blocks were given", identity_.name,
                     infos_.size(), blocks.size());
     }
+    encoded_.clear();
     if (failed_) return tl::unexpected<Error>(*failed_);
     auto taken = takeFrames(blocks);
     if (taken) taken = judgeNoise();
@@ -59,7 +61,7 @@ Result<void> SensorBoard::takeFrames(std::span<SampleBlock> blocks) {
                 }
                 if (const auto seen = observe(status->time_us); !seen) return seen;
                 current_.board = *status;
-            } else if (frame->version != kVersion) {
+            } else if (!takeEncoded(*frame) && frame->version != kVersion) {
                 ++current_.foreign;
             }
         }
@@ -94,6 +96,68 @@ Result<void> SensorBoard::takeBlock(const Frame& frame, std::span<SampleBlock> b
             return {};
     }
     return {};
+}
+
+namespace {
+
+EncodedFrame frameOf(const BoardReading& from, double t_s) {
+    return {t_s, from.contact, from.sliding, from.slidingAssumed, from.h, from.v, from.R, from.pressure_pa, from.P};
+}
+
+EncodedTrain trainOf(const BoardTrain& from, double onset_s) {
+    constexpr std::array kShapes{PulseShape::SymmetricBiphasic, PulseShape::AsymmetricBiphasic, PulseShape::Monophasic};
+    EncodedTrain train{onset_s, Seconds(from.interval_s), Volts(from.command_v), from.amplitude, {}};
+    train.form.shape = kShapes[from.shape];
+    train.form.polarity = from.negative ? Polarity::Negative : Polarity::Positive;
+    train.form.phaseWidth = Micros(from.width_us);
+    train.form.interPhaseGap = Micros(from.gap_us);
+    train.form.rechargeRatio = from.rechargeRatio;
+    train.form.pulses = static_cast<int>(std::min<std::uint32_t>(from.pulses, std::numeric_limits<int>::max()));
+    train.form.rate = Hertz(from.rate_hz);
+    return train;
+}
+
+}  // namespace
+
+std::optional<double> SensorBoard::place(SequenceTrack& track, std::uint32_t sequence, std::uint64_t time_us) noexcept {
+    const auto missing = track.take(sequence);
+    const double t_s = fit_.toSession(static_cast<double>(time_us));
+    if (!missing || !(std::abs(t_s - toSeconds(link_.arrival())) <= kEncodedWithin_s)) {
+        ++current_.encodedLate;
+        return std::nullopt;
+    }
+    current_.encodedLost += *missing;
+    return t_s;
+}
+
+bool SensorBoard::takeEncoded(const Frame& frame) {
+    const auto unused = [](std::uint64_t& count) {
+        ++count;
+        return true;
+    };
+    if (frame.is(Reply::Reading)) {
+        const auto reading = readReading(frame);
+        if (!reading || !encoder_) return unused(current_.foreign);
+        if (const auto t_s = place(readings_, reading->sequence, reading->time_us))
+            encoded_.frames.push_back(frameOf(*reading, *t_s));
+        return true;
+    }
+    if (frame.is(Reply::Train)) {
+        const auto train = readTrain(frame);
+        if (!train || !encoder_) return unused(current_.foreign);
+        const auto onset_s = place(trains_, train->sequence, train->onset_us);
+        if (!onset_s) return true;
+        if (!(*onset_s > lastOnset_s_)) return unused(current_.encodedLate);
+        lastOnset_s_ = *onset_s;
+        encoded_.trains.push_back(trainOf(*train, *onset_s));
+        return true;
+    }
+    if (!frame.is(Reply::Silent)) return false;
+    const auto silence = readSilence(frame);
+    if (!silence || !encoder_) return unused(current_.foreign);
+    if (const auto t_s = place(silences_, silence->sequence, silence->time_us))
+        encoded_.silences.push_back({*t_s, std::string_view(silenceWords(silence->faults, silence->refusal))});
+    return true;
 }
 
 Result<void> SensorBoard::observe(std::uint64_t device_us) {
@@ -145,6 +209,7 @@ Result<std::unique_ptr<SensorBoard>> SensorBoard::open(std::unique_ptr<Transport
     std::unique_ptr<SensorBoard> board(new SensorBoard(std::move(transport), clock));
     auto ready = board->identify(settings);
     if (ready) ready = board->measureDelay();
+    if (ready) ready = board->askToEncode(settings.encodes);
     if (ready) {
         // Even without an acknowledgement the board may have heard START.
         board->began_ = true;
@@ -166,11 +231,13 @@ Result<void> SensorBoard::identify(const SensorBoardSettings& settings) {
     if (!answer) return failure(answer);
     const auto who = readIdentity(*answer);
     if (!who) return fail(ErrorCode::Device, "{}", who.error().message);
-    if (kVersion < who->lowestVersion || kVersion > who->highestVersion) {
+    if (kEncoderVersion < who->lowestVersion || kVersion > who->highestVersion) {
         return fail(ErrorCode::Unsupported,
-                    "it speaks versions {} to {} of the sensor board protocol; version {} was expected",
-                    who->lowestVersion, who->highestVersion, static_cast<int>(kVersion));
+                    "it speaks versions {} to {} of the sensor board protocol; version {} or {} was expected",
+                    who->lowestVersion, who->highestVersion, static_cast<int>(kVersion),
+                    static_cast<int>(kEncoderVersion));
     }
+    highestVersion_ = who->highestVersion;
     if (!settings.serial.empty() && settings.serial != who->serial) {
         return fail(ErrorCode::NotFound, "its serial number is \"{}\"; \"{}\" was expected", who->serial,
                     settings.serial);
@@ -249,6 +316,34 @@ Result<StreamConfiguration> SensorBoard::setRate(StreamConfiguration now, double
                     rate_hz, set->rate_hz());
     }
     return set;
+}
+
+Result<void> SensorBoard::askToEncode(Encodes wanted) {
+    const bool able = highestVersion_ >= kEncoderVersion;
+    if (wanted == Encodes::No) {
+        // Another program may have left it encoding. A board without an encoder refuses this, which is as good.
+        if (able) static_cast<void>(link_.ask(Command::SetEncoder, Reply::Encoder, std::array<std::uint8_t, 1>{0}));
+        return {};
+    }
+    if (!able) {
+        return fail(ErrorCode::Unsupported,
+                    "it speaks version {} of the sensor board protocol and does not encode; version {} was expected",
+                    highestVersion_, static_cast<int>(kEncoderVersion));
+    }
+    const auto answer = link_.ask(Command::SetEncoder, Reply::Encoder, std::array<std::uint8_t, 1>{1});
+    if (!answer) return failure(answer);
+    const auto state = readEncoder(*answer);
+    if (!state) return fail(ErrorCode::Device, "{}", state.error().message);
+    if (state->layout != TE_LAYOUT) {
+        return fail(ErrorCode::Unsupported, "its encoder has profiles of layout {}; {} was expected", state->layout,
+                    TE_LAYOUT);
+    }
+    if (state->refusal != TE_ACCEPTED || !state->encodes) {
+        return fail(ErrorCode::Device, "its encoder does not begin: the profile in it has {}",
+                    wordsOf(static_cast<te_refusal>(state->refusal)));
+    }
+    encoder_ = BoardEncoder{wanted == Encodes::Drives, state->hash};
+    return {};
 }
 
 Result<void> SensorBoard::measureDelay() {

@@ -2,7 +2,8 @@
 // that uses the sensor board protocol (resources/firmware/sensor_board/PROTOCOL.md).
 //
 // open() identifies the board, refuses a wrong protocol version, wrong units or garbage in one sentence, reads
-// configuration and calibration, measures the line's delay and starts the streams. On a steady clock a thread listens,
+// configuration and calibration, measures the line's delay and starts the streams. A board that is asked to encode is
+// refused if it cannot, or if its own profile is refused there. On a steady clock a thread listens,
 // so that arrival times are known; read() returns what has arrived and never waits. Samples carry the board's own time
 // stamps, mapped to the session's clock (ClockFit.h); lost samples are counted and stay gaps.
 //
@@ -14,11 +15,13 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include "core/base/Clock.h"
 #include "core/base/SpscRing.h"
+#include "core/devices/EncodingSensor.h"
 #include "core/devices/TactileSensor.h"
 #include "drivers/sensor_board/BoardLink.h"
 #include "drivers/sensor_board/StreamTrack.h"
@@ -38,7 +41,12 @@ struct SensorBoardReport {
     double driftSpan_s = 0;  ///< length of board time behind the drift
     double delayMost_s = 0;  ///< shortest round trip at open: about the most that stamps are late
     std::uint64_t clockSteps = 0;
+    std::uint64_t encodedLost = 0;  ///< readings, trains and silences of the board's encoder that did not come
+    std::uint64_t encodedLate = 0;  ///< that came again, after later ones, or with a time that cannot be
 };
+
+/// Whether the board encodes, and whether its trains are played while the sensor drives.
+enum class Encodes { No, Shown, Drives };
 
 struct SensorBoardSettings {
     std::string uri = "sensor:";     ///< the URI for the board's identity
@@ -46,9 +54,10 @@ struct SensorBoardSettings {
     double accelerationRate_hz = 0;  ///< 0: keep the board's own rate
     double slowRate_hz = 0;          ///< rate of taxels and force; 0: keep the board's own
     bool emulated = false;           ///< the operator's statement in the address: data are simulated
+    Encodes encodes = Encodes::No;
 };
 
-class SensorBoard final : public TactileSensor {
+class SensorBoard final : public TactileSensor, public EncodingSensor {
 public:
     static constexpr std::size_t kGarbageBytes = 4096;
     static constexpr Seconds kGarbageTime{0.5};
@@ -56,10 +65,11 @@ public:
     static constexpr double kMaxDrift_ppm = 10'000;
     static constexpr std::uint64_t kMaxLate = 8;    ///< this many late blocks in a row mean that the board restarted
     static constexpr std::size_t kMaxRead = 65536;  ///< bytes taken by one read()
+    static constexpr double kEncodedWithin_s = 1;   ///< times of its encoder further from now cannot be
 
     /// Waits for answers, at most about a second if the board is in order. `clock` outlives the board. Errors: Timeout
-    /// (no answer); Device (garbage, wrong units, refused, unplugged); Unsupported (wrong protocol version, no stream);
-    /// NotFound (another serial number).
+    /// (no answer); Device (garbage, wrong units, refused, unplugged); Unsupported (wrong protocol version, no stream,
+    /// no encoder that it is asked for, or one of another layout); NotFound (another serial number).
     [[nodiscard]] static Result<std::unique_ptr<SensorBoard>> open(std::unique_ptr<Transport> transport,
                                                                    const SensorBoardSettings& settings,
                                                                    const Clock& clock);
@@ -69,6 +79,8 @@ public:
     [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return identity_; }
     [[nodiscard]] std::span<const StreamInfo> streams() const noexcept override { return infos_; }
     [[nodiscard]] Result<void> read(std::span<SampleBlock> blocks) override;
+    [[nodiscard]] std::optional<BoardEncoder> encoder() const noexcept override { return encoder_; }
+    [[nodiscard]] const Encoded& encoded() const noexcept override { return encoded_; }
 
     /// The calibrations that were read from the board, one per stream. Constant while open.
     [[nodiscard]] const std::vector<sensorboard::StreamCalibration>& calibrations() const noexcept {
@@ -87,9 +99,15 @@ private:
     [[nodiscard]] Result<sensorboard::StreamConfiguration> setRate(sensorboard::StreamConfiguration now,
                                                                    double rate_hz);
     [[nodiscard]] Result<void> measureDelay();
+    [[nodiscard]] Result<void> askToEncode(Encodes wanted);
 
     [[nodiscard]] Result<void> takeFrames(std::span<SampleBlock> blocks);
     [[nodiscard]] Result<void> takeBlock(const sensorboard::Frame& frame, std::span<SampleBlock> blocks);
+    /// False for a frame that is none of the encoder's.
+    bool takeEncoded(const sensorboard::Frame& frame);
+    /// Returns the session's time of a message that is the next of its kind; nothing for one that is not used.
+    [[nodiscard]] std::optional<double> place(sensorboard::SequenceTrack& track, std::uint32_t sequence,
+                                              std::uint64_t time_us) noexcept;
     [[nodiscard]] Result<void> observe(std::uint64_t device_us);
     [[nodiscard]] Result<void> judgeNoise();
     void publish() noexcept;
@@ -106,6 +124,11 @@ private:
     std::uint64_t soundFrames_ = 0;  // value at lastSound_
     std::uint64_t bytesThen_ = 0;    // value at lastSound_
     bool began_ = false;             // true once START was acknowledged
+    int highestVersion_ = 0;         // of the protocol, that the board speaks
+    std::optional<BoardEncoder> encoder_;
+    Encoded encoded_;
+    sensorboard::SequenceTrack readings_, trains_, silences_;
+    double lastOnset_s_ = -std::numeric_limits<double>::infinity();
     std::optional<Error> failed_;
     SensorBoardReport current_;
     Latest<SensorBoardReport> report_;

@@ -24,6 +24,8 @@ Result<Wanted> readUri(const DeviceUri& uri) {
     // At less than 20 Hz, data would count as stale between two samples (H7).
     wanted.settings.slowRate_hz = from.quantity("slowrate", "Hz", 0, 20, 2000);
     wanted.settings.emulated = from.choice("emulated", "no", {"yes", "no"}) == "yes";
+    const auto encodes = from.choice("encodes", "no", {"no", "shown", "drives"});
+    wanted.settings.encodes = encodes == "drives" ? Encodes::Drives : encodes == "shown" ? Encodes::Shown : Encodes::No;
     wanted.terminal = from.text("tty");
     if (wanted.terminal == "") from.refuse("tty", "", "a terminal's path, as /dev/ttyACM0");
     if (const auto read = from.finish(); !read) return failure(read);

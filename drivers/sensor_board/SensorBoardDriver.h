@@ -4,6 +4,7 @@
 //   sensor:TSB-0001                  by serial number
 //   sensor:1-4.2                     by its USB socket
 //   sensor:?rate=2kHz&slowrate=100   acceleration at 2 kHz, taxels and force at 100 Hz, if the board can
+//   sensor:?encodes=drives           the board encodes and its trains are played; shown: they are only shown
 //   sensor:?tty=/dev/pts/3           through a terminal device
 //   sensor:?tty=/dev/pts/3&emulated=yes  an emulated board; its results are marked as simulated
 //

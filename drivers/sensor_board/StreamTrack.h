@@ -7,6 +7,8 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
+#include <optional>
 
 #include "drivers/sensor_board/ClockFit.h"
 #include "drivers/sensor_board/Messages.h"
@@ -65,6 +67,23 @@ private:
     std::uint64_t last_us_ = 0;  // time of the last sample
     std::uint64_t lateInARow_ = 0;
     StreamCounts counts_;
+};
+
+/// Follows the numbers of messages that have no samples.
+class SequenceTrack {
+public:
+    /// Returns how many are missing before this one; nothing for one that came again or after a later one.
+    [[nodiscard]] std::optional<std::uint32_t> take(std::uint32_t sequence) noexcept {
+        const std::uint32_t ahead = begun_ ? sequence - next_ : 0;
+        if (ahead > std::numeric_limits<std::int32_t>::max()) return std::nullopt;
+        begun_ = true;
+        next_ = sequence + 1;
+        return ahead;
+    }
+
+private:
+    bool begun_ = false;
+    std::uint32_t next_ = 0;
 };
 
 }  // namespace tacto::sensorboard

@@ -76,7 +76,7 @@ std::optional<std::size_t> FrameDecoder::unstuff() noexcept {
 
 std::vector<std::uint8_t> encodeCommand(Command command, std::uint8_t token, std::span<const std::uint8_t> payload) {
     assert(payload.size() < kMaxPayload);
-    std::vector<std::uint8_t> content{kVersion, static_cast<std::uint8_t>(command), token};
+    std::vector<std::uint8_t> content{versionOf(command), static_cast<std::uint8_t>(command), token};
     content.insert(content.end(), payload.begin(), payload.end());
     putU32(content, crcOf(content));
 

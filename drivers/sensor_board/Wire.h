@@ -1,5 +1,5 @@
 // Wire.h - the host's encoder and decoder for frames of the sensor board protocol
-// (resources/firmware/sensor_board/PROTOCOL.md, sections 2 and 3).
+// (resources/firmware/sensor_board/PROTOCOL.md, sections 2, 3 and 7).
 //
 //   COBS( version | type | payload | CRC-32 ) | 00        content at most 254 bytes
 //
@@ -17,10 +17,11 @@
 
 namespace tacto::sensorboard {
 
-inline constexpr std::uint8_t kVersion = 1;
-inline constexpr std::size_t kMaxContent = 254;  ///< bytes from version to CRC
-inline constexpr std::size_t kMinContent = 6;    ///< bytes of version, type and CRC
-inline constexpr std::size_t kMaxStuffed = 255;  ///< bytes before the delimiter
+inline constexpr std::uint8_t kVersion = 1;         ///< of every frame but those of a board that encodes
+inline constexpr std::uint8_t kEncoderVersion = 2;  ///< of these; the newest that is known here
+inline constexpr std::size_t kMaxContent = 254;     ///< bytes from version to CRC
+inline constexpr std::size_t kMinContent = 6;       ///< bytes of version, type and CRC
+inline constexpr std::size_t kMaxStuffed = 255;     ///< bytes before the delimiter
 inline constexpr std::size_t kMaxPayload = kMaxContent - kMinContent;
 
 enum class Command : std::uint8_t {
@@ -31,6 +32,8 @@ enum class Command : std::uint8_t {
     Start = 0x05,
     Stop = 0x06,
     GetStatus = 0x07,
+    GetEncoder = 0x08,
+    SetEncoder = 0x09,
 };
 
 enum class Reply : std::uint8_t {
@@ -39,9 +42,21 @@ enum class Reply : std::uint8_t {
     Calibration = 0x44,
     Done = 0x45,
     Status = 0x46,
+    Encoder = 0x47,
     Refused = 0x4F,
     Data = 0x50,
+    Reading = 0x51,
+    Train = 0x52,
+    Silent = 0x53,
 };
+
+/// Returns the version that brought this type of frame, and that each of its frames has.
+[[nodiscard]] constexpr std::uint8_t versionOf(Command command) noexcept {
+    return command == Command::GetEncoder || command == Command::SetEncoder ? kEncoderVersion : kVersion;
+}
+[[nodiscard]] constexpr std::uint8_t versionOf(Reply reply) noexcept {
+    return reply == Reply::Encoder || reply >= Reply::Reading ? kEncoderVersion : kVersion;
+}
 
 /// A frame with a correct CRC. `payload` points into the decoder and is valid until its next call.
 struct Frame {
@@ -50,7 +65,7 @@ struct Frame {
     std::span<const std::uint8_t> payload;
 
     [[nodiscard]] bool is(Reply reply) const noexcept {
-        return version == kVersion && type == static_cast<std::uint8_t>(reply);
+        return version == versionOf(reply) && type == static_cast<std::uint8_t>(reply);
     }
 };
 

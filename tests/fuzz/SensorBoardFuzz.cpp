@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "drivers/sensor_board/EncoderProfile.h"
 #include "drivers/sensor_board/SensorBoard.h"
 #include "tests/fuzz/FuzzTarget.h"
 #include "tests/support/emulated/sensor_board/EmulatedBoardLine.h"
@@ -43,6 +44,15 @@ void parse(const Frame& frame) {
     static_cast<void>(readStatus(frame));
     static_cast<void>(readRefusal(frame));
     static_cast<void>(readDone(frame, sensorboard::Command::Start));
+    static_cast<void>(readEncoder(frame));
+    if (const auto reading = readReading(frame)) require(!(reading->R < 0 || reading->R > 1 || reading->P > 1));
+    if (const auto silence = readSilence(frame))
+        require(silenceWords(silence->faults, silence->refusal).empty() ==
+                (silence->faults == 0 && silence->refusal == 0));
+    if (const auto train = readTrain(frame)) {
+        require(train->amplitude > 0 && std::isfinite(train->amplitude) && train->interval_s > 0);
+        require(train->shape <= 2 && train->pulses > 0 && std::isfinite(train->width_us + train->rate_hz));
+    }
 }
 
 /// One stream and its clock; takes blocks as they arrive.
@@ -128,6 +138,8 @@ EmulatedBoardSettings slowBoard() {
     settings.slowRate_hz = 100;
     settings.blockSamples = 4;
     settings.slowBlockSamples = 1;
+    settings.highestVersion = 2;
+    settings.encoder = tsb_encoder{0, 0, TE_LAYOUT, 1};
     return settings;
 }
 
@@ -161,7 +173,7 @@ void whole(std::span<const std::uint8_t> input, bool fromTheStart) {
     auto transport = std::make_unique<TurningTransport>(*line->connect());
     auto& turning = *transport;
     if (fromTheStart) turning.input.assign(input.begin(), input.end());
-    const auto board = SensorBoard::open(std::move(transport), {}, clock);
+    const auto board = SensorBoard::open(std::move(transport), {.encodes = Encodes::Drives}, clock);
     require(board.has_value() || fromTheStart);
     if (!board) return;
     frames(input, [&](const std::vector<std::uint8_t>& bytes) {
@@ -174,6 +186,8 @@ void whole(std::span<const std::uint8_t> input, bool fromTheStart) {
         for (const auto& block : blocks) {
             if (block.samples() > 0) require(block.t_s.back() <= toSeconds(clock.now()) + 1e-6);
         }
+        for (const auto& train : (*board)->encoded().trains)
+            require(std::abs(train.onset_s - toSeconds(clock.now())) <= SensorBoard::kEncodedWithin_s + 1e-6);
         if (!got) return;
     }
 }

@@ -136,7 +136,8 @@ TEST_F(SensorBoardDriverTest, RefusesParametersThatItDoesNotTake) {
                                         {"sensor:?rate=nan", "100 Hz to 20 kHz"},
                                         {"sensor:?slowrate=5", "slowrate=5 is not accepted: 20 Hz to 2 kHz"},
                                         {"sensor:?tty=", "a terminal's path, as /dev/ttyACM0"},
-                                        {"sensor:?speed=1", "it takes rate, slowrate, emulated, tty"},
+                                        {"sensor:?encodes=yes", "encodes=yes is not accepted: no, shown or drives"},
+                                        {"sensor:?speed=1", "it takes rate, slowrate, emulated, encodes, tty"},
                                         {"sensor:?rate=2000&rate=1000", "rate is given twice"}}) {
         EXPECT_THAT(open(uri), refused(ErrorCode::InvalidArgument, expected)) << uri;
     }

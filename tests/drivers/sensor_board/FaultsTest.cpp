@@ -255,12 +255,12 @@ TEST(SensorBoardFaults, AClockThatRunsThreePercentFastIsRefused) {
 TEST(SensorBoardFaults, AnotherVersionOfTheProtocolIsRefused) {
     RecordProperty("hazard", "H4");
     EmulatedBoardSettings settings;
-    settings.lowestVersion = 2;
-    settings.highestVersion = 3;
+    settings.lowestVersion = 3;
+    settings.highestVersion = 4;
     SensorBoardBench bench(settings);
     EXPECT_THAT(bench.tryOpen(),
-                refused(ErrorCode::Unsupported, testing::Eq("sensor board \"sensor:\": it speaks versions 2 to 3 of "
-                                                            "the sensor board protocol; version 1 was expected")));
+                refused(ErrorCode::Unsupported, testing::Eq("sensor board \"sensor:\": it speaks versions 3 to 4 of "
+                                                            "the sensor board protocol; version 1 or 2 was expected")));
 }
 
 TEST(SensorBoardFaults, ADoneOfAnotherCommandIsNotTakenForThisOne) {

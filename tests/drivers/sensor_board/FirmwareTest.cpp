@@ -118,6 +118,8 @@ TEST(SensorBoardFirmware, HostSendsTheGoldenCommands) {
     EXPECT_EQ(sent(Command::Start, 5), golden("START"));
     EXPECT_EQ(sent(Command::Stop, 6), golden("STOP"));
     EXPECT_EQ(sent(Command::GetStatus, 7), golden("GET_STATUS"));
+    EXPECT_EQ(sent(Command::GetEncoder, 8), golden("GET_ENCODER"));
+    EXPECT_EQ(sent(Command::SetEncoder, 9, {1}), golden("SET_ENCODER"));
 }
 
 TEST(SensorBoardFirmware, RefusesToMakeWhatTheProtocolCannotCarry) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "drivers/sensor_board/EncoderProfile.h"
 #include "drivers/sensor_board/Fields.h"
 #include "drivers/sensor_board/Messages.h"
 #include "tests/drivers/sensor_board/Golden.h"
@@ -24,7 +25,9 @@ Bytes payloadOf(std::string_view text) {
     return {frame->payload.begin(), frame->payload.end()};
 }
 
-Frame frameOf(Reply reply, const Bytes& payload) { return {kVersion, static_cast<std::uint8_t>(reply), payload}; }
+Frame frameOf(Reply reply, const Bytes& payload) {
+    return {versionOf(reply), static_cast<std::uint8_t>(reply), payload};
+}
 
 /// Changes one byte of the golden configuration payload and returns the error.
 std::string refusalOf(std::size_t at, std::uint8_t value) {
@@ -92,6 +95,102 @@ TEST(SensorBoardMessages, ReadsTheGoldenBlocks) {
     EXPECT_EQ(readBlock(frameOf(Reply::Data, wide))->index, 0xFFFFFFFFU);
 }
 
+TEST(SensorBoardMessages, ReadsWhatTheGoldenEncoderSays) {
+    const auto state = accepted(readEncoder(frameOf(Reply::Encoder, payloadOf("ENCODER"))));
+    EXPECT_TRUE(state.encodes);
+    EXPECT_EQ(state.refusal, 0);
+    EXPECT_EQ(state.layout, 1U);
+    EXPECT_EQ(state.hash, 0x89ABCDEFU);
+
+    const auto reading = accepted(readReading(frameOf(Reply::Reading, payloadOf("READING"))));
+    EXPECT_EQ(reading.sequence, 70'000U);
+    EXPECT_EQ(reading.time_us, 1ULL << 33U);
+    EXPECT_TRUE(reading.contact && reading.slidingAssumed);
+    EXPECT_FALSE(reading.sliding);
+    EXPECT_EQ(reading.faults, 0U);
+    EXPECT_EQ(reading.R, 0.625);
+    EXPECT_EQ(reading.P, 0.25);
+    EXPECT_EQ(reading.pressure_pa, 10'000);
+    EXPECT_EQ(reading.h, 0.03125);
+    EXPECT_TRUE(std::isnan(reading.v));
+
+    const auto train = accepted(readTrain(frameOf(Reply::Train, payloadOf("TRAIN"))));
+    EXPECT_EQ(train.sequence, 258U);
+    EXPECT_EQ(train.onset_us, 5'000'000U);
+    EXPECT_EQ(train.interval_s, 0.5);
+    EXPECT_EQ(train.command_v, 13.5);
+    EXPECT_EQ(train.amplitude, 6.75);
+    EXPECT_EQ(train.shape, 1);
+    EXPECT_TRUE(train.negative);
+    EXPECT_EQ(train.width_us, 200);
+    EXPECT_EQ(train.gap_us, 50);
+    EXPECT_EQ(train.rechargeRatio, 10);
+    EXPECT_EQ(train.pulses, 10U);
+    EXPECT_EQ(train.rate_hz, 100);
+
+    const auto faulty = accepted(readSilence(frameOf(Reply::Silent, payloadOf("SILENT: sequence 3"))));
+    EXPECT_EQ(faulty.sequence, 3U);
+    EXPECT_EQ(faulty.time_us, 6'000'000U);
+    EXPECT_EQ(silenceWords(faulty.faults, faulty.refusal),
+              "data that are older than 100 ms, a sensor that repeats itself");
+    const auto refused = accepted(readSilence(frameOf(Reply::Silent, payloadOf("SILENT: sequence 4"))));
+    EXPECT_EQ(silenceWords(refused.faults, refused.refusal),
+              "a train that it refuses: more RMS current over 5 s than allowed");
+    EXPECT_EQ(silenceWords(0, 0), "");
+    EXPECT_EQ(silenceWords(1U << 20U, 200),
+              "faults 0x100000, which are not known here, a train that it refuses for reason 200");
+}
+
+TEST(SensorBoardMessages, RefusesATrainThatIsNone) {
+    RecordProperty("hazard", "H1");
+    const auto whole = payloadOf("TRAIN");
+    constexpr std::size_t kInterval = 12, kCommand = 16, kAmplitude = 20, kShape = 24, kNegative = 25, kWidth = 26,
+                          kGap = 30, kRatio = 34, kPulses = 38, kRate = 42;
+    const auto with = [&](std::size_t at, const Bytes& bytes) {
+        auto payload = whole;
+        std::ranges::copy(bytes, payload.begin() + static_cast<std::ptrdiff_t>(at));
+        return readTrain(frameOf(Reply::Train, payload)).has_value();
+    };
+    const auto number = [](float value) {
+        Bytes bytes;
+        putF32(bytes, value);
+        return bytes;
+    };
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+    for (const auto at : {kInterval, kCommand, kAmplitude, kWidth, kGap, kRatio, kRate}) {
+        EXPECT_TRUE(with(at, number(1))) << at;
+        for (const float value : {kNan, kInf, -kInf, -1.0F})
+            EXPECT_FALSE(with(at, number(value))) << at << " " << value;
+        EXPECT_EQ(with(at, number(0)), at == kGap || at == kRatio) << at;
+    }
+    EXPECT_FALSE(with(kShape, {3}));
+    EXPECT_FALSE(with(kNegative, {2}));
+    EXPECT_FALSE(with(kPulses, {0, 0, 0, 0}));
+}
+
+TEST(SensorBoardMessages, RefusesAReadingOutOfItsRange) {
+    RecordProperty("hazard", "H7");
+    const auto whole = payloadOf("READING");
+    constexpr std::size_t kFlags = 12, kR = 18, kP = 22, kPressure = 26, kH = 30, kV = 34;
+    const auto with = [&](std::size_t at, float value) {
+        auto payload = whole;
+        Bytes bytes;
+        putF32(bytes, value);
+        std::ranges::copy(bytes, payload.begin() + static_cast<std::ptrdiff_t>(at));
+        return readReading(frameOf(Reply::Reading, payload)).has_value();
+    };
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+    for (const auto at : {kR, kP, kPressure, kH, kV}) {
+        EXPECT_TRUE(with(at, kNan)) << at;
+        EXPECT_TRUE(with(at, 1)) << at;
+        EXPECT_FALSE(with(at, kInf)) << at;
+        EXPECT_EQ(with(at, 1.5F), at != kR && at != kP) << at;
+    }
+    auto payload = whole;
+    payload[kFlags] = 8;
+    EXPECT_FALSE(readReading(frameOf(Reply::Reading, payload)).has_value());
+}
+
 TEST(SensorBoardMessages, RefusesEveryLengthButTheRightOne) {
     RecordProperty("hazard", "H10");
     const auto refuses = [](std::string_view text, auto&& read) {
@@ -111,6 +210,10 @@ TEST(SensorBoardMessages, RefusesEveryLengthButTheRightOne) {
     refuses("CALIBRATION", [](const Bytes& p) { return readCalibration(frameOf(Reply::Calibration, p)).has_value(); });
     refuses("DONE", [](const Bytes& p) { return readDone(frameOf(Reply::Done, p), Command::Start).has_value(); });
     refuses("STATUS", [](const Bytes& p) { return readStatus(frameOf(Reply::Status, p)).has_value(); });
+    refuses("ENCODER", [](const Bytes& p) { return readEncoder(frameOf(Reply::Encoder, p)).has_value(); });
+    refuses("READING", [](const Bytes& p) { return readReading(frameOf(Reply::Reading, p)).has_value(); });
+    refuses("TRAIN", [](const Bytes& p) { return readTrain(frameOf(Reply::Train, p)).has_value(); });
+    refuses("SILENT", [](const Bytes& p) { return readSilence(frameOf(Reply::Silent, p)).has_value(); });
     refuses("REFUSED", [](const Bytes& p) { return readRefusal(frameOf(Reply::Refused, p)).has_value(); });
 }
 

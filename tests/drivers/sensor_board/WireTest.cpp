@@ -198,10 +198,42 @@ TEST(SensorBoardWire, WhatTheFirmwareEncodesIsWhatTheHostDecodes) {
     }));
 }
 
+TEST(SensorBoardWire, ATrainOfAnyNumbersComesAsItWasSent) {
+    RecordProperty("hazard", "H4");
+    EXPECT_TRUE(rc::check("trains", [] {
+        const auto above = [] { return static_cast<float>(*rc::gen::inRange(1, 1 << 24)) / 1024.0F; };
+        const tsb_train train{*rc::gen::arbitrary<std::uint32_t>(),
+                              *rc::gen::arbitrary<std::uint64_t>(),
+                              above(),
+                              above(),
+                              above(),
+                              *rc::gen::inRange<std::uint8_t>(0, 3),
+                              *rc::gen::inRange<std::uint8_t>(0, 2),
+                              above(),
+                              above(),
+                              above(),
+                              *rc::gen::inRange<std::uint32_t>(1, 0xFFFFFFFFU),
+                              above()};
+        std::array<std::uint8_t, TSB_FRAME_MOST> frame{};
+        FrameDecoder decoder;
+        std::span<const std::uint8_t> bytes(frame.data(), tsb_encode_train(frame.data(), &train));
+        const auto got = decoder.take(bytes);
+        RC_ASSERT(got.has_value() && got->is(Reply::Train));
+        const auto read = readTrain(*got);
+        RC_ASSERT(read.has_value());
+        RC_ASSERT(read->sequence == train.sequence && read->onset_us == train.onset_us);
+        RC_ASSERT(read->interval_s == train.interval_s && read->command_v == train.command_v);
+        RC_ASSERT(read->amplitude == train.amplitude && read->shape == train.shape);
+        RC_ASSERT(read->negative == (train.negative == 1) && read->width_us == train.width_us);
+        RC_ASSERT(read->gap_us == train.gap_us && read->rechargeRatio == train.recharge_ratio);
+        RC_ASSERT(read->pulses == train.pulses && read->rate_hz == train.pulse_hz);
+    }));
+}
+
 TEST(SensorBoardWire, WhatTheHostSendsIsWhatTheFirmwareHears) {
     EXPECT_TRUE(rc::check("commands", [] {
         const auto type = *rc::gen::element(Command::Hello, Command::GetConfiguration, Command::GetCalibration,
-                                            Command::Start, Command::Stop, Command::GetStatus);
+                                            Command::Start, Command::Stop, Command::GetStatus, Command::GetEncoder);
         const auto token = *rc::gen::arbitrary<std::uint8_t>();
         const auto stream = *rc::gen::arbitrary<std::uint8_t>();
         const bool names = type == Command::GetConfiguration || type == Command::GetCalibration;

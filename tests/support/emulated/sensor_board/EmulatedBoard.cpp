@@ -317,6 +317,16 @@ void EmulatedBoard::answer(const tsb_command& command, Instant now) {
             return done();
         case TSB_GET_STATUS:
             return sendStatus(command.token, now);
+        case TSB_GET_ENCODER:
+        case TSB_SET_ENCODER: {
+            if (!settings_.encoder) return refuse(TSB_REASON_UNKNOWN_COMMAND);
+            if (command.mode > TSB_MODE_ENCODE) return refuse(TSB_REASON_NOT_SUPPORTED);
+            if (command.type == TSB_SET_ENCODER && running_) return refuse(TSB_REASON_RUNNING);
+            if (command.type == TSB_SET_ENCODER) mode_ = settings_.encoder->refusal == 0 ? command.mode : TSB_MODE_OFF;
+            auto state = *settings_.encoder;
+            state.mode = mode_;
+            return queue(firstOf(frame, tsb_encode_encoder(frame.data(), command.token, &state)), now);
+        }
         default:
             return refuse(TSB_REASON_UNKNOWN_COMMAND);
     }

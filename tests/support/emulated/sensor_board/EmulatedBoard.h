@@ -42,8 +42,10 @@ struct EmulatedBoardSettings {
     double rate_hz = 4000;
     double slowRate_hz = 200;
     std::uint8_t blockSamples = 32, slowBlockSamples = 2;
-    bool wideForce = false;                ///< send force as int32
-    std::optional<std::uint8_t> unit;      ///< a wrong unit for acceleration; empty: the right unit
+    bool wideForce = false;            ///< send force as int32
+    std::optional<std::uint8_t> unit;  ///< a wrong unit for acceleration; empty: the right unit
+    /// What encodes in it, for version 2; empty: it has no encoder. Its messages come by EmulatedBoard::send().
+    std::optional<tsb_encoder> encoder;
     std::optional<std::uint8_t> done;      ///< a wrong command in each DONE; empty: the right command
     double drift_ppm = 0;                  ///< how much faster the board's clock runs than the host's
     std::uint64_t powerUp_us = 1'234'567;  ///< its clock's time when the board is made
@@ -79,6 +81,8 @@ public:
 
     /// Keeps sampling but sends nothing from now on.
     void fallSilent() noexcept { silent_ = true; }
+    /// Sends a whole frame, also one that it could not make itself.
+    void send(std::span<const std::uint8_t> frame, Instant now) { queue(frame, now); }
     /// Replaces every frame by noise while `on`.
     void talkGarbage(bool on) noexcept { garbage_ = on; }
     /// Applies these flaws to blocks from now on.
@@ -93,6 +97,8 @@ public:
 
     [[nodiscard]] const Fate& fate(std::size_t stream) const noexcept { return streams_[stream].fate; }
     [[nodiscard]] bool running() const noexcept { return running_; }
+    /// Returns the encoder's mode, as the host set it.
+    [[nodiscard]] std::uint8_t mode() const noexcept { return mode_; }
     /// Returns the time on the board's own clock.
     [[nodiscard]] std::uint64_t time_us(Instant now) const noexcept;
     [[nodiscard]] BoardSignal& signal() noexcept { return *signal_; }
@@ -144,6 +150,7 @@ private:
     std::size_t queuedBytes_ = 0;
     std::size_t sentOfFront_ = 0;
     Instant lastDue_{0};
+    std::uint8_t mode_ = TSB_MODE_OFF;
     bool running_ = false, silent_ = false, garbage_ = false;
     double started_us_ = 0;
     std::int64_t tick_ = 0;  // the next tick
