@@ -45,8 +45,7 @@ protected:
             give(TE_ACCELERATION, acceleration, 2, kMillisecond_ns);
             give(TE_FORCE, force, 1, 10 * kMillisecond_ns);
             give(TE_TAXEL_ARRAY, taxels, 4, 10 * kMillisecond_ns);
-            te_reading frame{};
-            while (takesFrames_ && te_frame(state_.get(), &frame) != 0) {
+            while (takesFrames_ && te_frame(state_.get(), &frame_) != 0) {
             }
             te_train train{};
             trains += te_next_train(state_.get(), now_ns_, &train);
@@ -64,6 +63,7 @@ protected:
     std::unique_ptr<te_state> state_ = std::make_unique<te_state>();
     std::int64_t now_ns_ = 0;
     bool takesFrames_ = true;
+    te_reading frame_{};  // the newest
 
 private:
     float noise(double size) { return static_cast<float>(size * random_.normal()); }
@@ -82,6 +82,18 @@ TEST_F(SlidingFinger, IsFelt) {
     EXPECT_NE(fault() & TE_FAULT_STALE, kNone) << "nothing came yet";
     EXPECT_GE(slide(5000), 3);
     EXPECT_EQ(fault(), kNone);
+}
+
+TEST_F(SlidingFinger, IsAssumedToSlideWhereItDidNotRestBefore) {
+    slide(2000);
+    EXPECT_EQ(frame_.sliding, 1U);
+    EXPECT_EQ(frame_.sliding_assumed, kNone);
+    ASSERT_EQ(te_init(state_.get(), &profile_), TE_ACCEPTED);
+    slide(1000, [](auto& acceleration, auto&, auto&) {
+        for (auto& value : acceleration) value *= 0.02F;
+    });
+    EXPECT_EQ(frame_.sliding, 1U) << "noise alone";
+    EXPECT_EQ(frame_.sliding_assumed, 1U);
 }
 
 TEST_F(SlidingFinger, IsNotFeltWhileAStreamIsSilent) {

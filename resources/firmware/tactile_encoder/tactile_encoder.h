@@ -136,6 +136,7 @@ struct te_profile {
 struct te_reading {
     int64_t t_ns; /* the middle of its window */
     uint32_t contact, sliding;
+    uint32_t sliding_assumed; /* there is no rest to tell sliding from, as the bench's flag says */
     float h, v, R, pressure_pa, P;
 };
 
@@ -217,6 +218,9 @@ void te_stop(struct te_state* state);
 
 /* The bits above; 0 while trains may come. */
 uint32_t te_fault(const struct te_state* state, int64_t now_ns);
+
+/* Why the train that was due last was refused; TE_ACCEPTED where it was handed out, and while none is due. */
+enum te_refusal te_refused(const struct te_state* state);
 
 #ifdef __cplusplus
 }

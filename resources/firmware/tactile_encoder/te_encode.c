@@ -158,9 +158,10 @@ static void want(struct te_state* state, int64_t now_ns) {
     reschedule(series, now_ns);
 }
 
-static void want_nothing(struct te_series* series) {
-    series->has_wanted = 0U;
-    series->starts_again = 1U;
+static void want_nothing(struct te_state* state) {
+    state->series.has_wanted = 0U;
+    state->series.starts_again = 1U;
+    state->refusal = (uint32_t)TE_ACCEPTED;
 }
 
 /* The next train is due an interval after this one, whether or not this one is refused. */
@@ -220,7 +221,7 @@ int te_next_train(struct te_state* state, int64_t now_ns, struct te_train* train
     enum te_refusal refusal;
     rest(state, now_ns);
     if (te_fault(state, now_ns) != 0U || !state->latest.contact || !(state->latest.R >= 0.0F)) {
-        want_nothing(series);
+        want_nothing(state);
         return 0;
     }
     want(state, now_ns);
@@ -228,8 +229,8 @@ int te_next_train(struct te_state* state, int64_t now_ns, struct te_train* train
     begin(state, series->due_ns > now_ns ? series->due_ns : now_ns);
     *train = train_of(state, &series->command, series->begun_ns);
     refusal = te_train_judge(&state->profile, &state->gate, train, now_ns);
+    state->refusal = (uint32_t)refusal;
     if (refusal != TE_ACCEPTED) {
-        state->refusal = (uint32_t)refusal;
         ++state->trains_refused;
         return 0;
     }
@@ -238,3 +239,5 @@ int te_next_train(struct te_state* state, int64_t now_ns, struct te_train* train
     ++state->trains;
     return !te_is_stopped(state); /* which may have come meanwhile */
 }
+
+enum te_refusal te_refused(const struct te_state* state) { return (enum te_refusal)state->refusal; }

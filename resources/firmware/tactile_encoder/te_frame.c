@@ -165,7 +165,10 @@ static void decide_rest(struct te_state* state) {
 
 static enum motion motion_of(struct te_state* state, const struct te_pending* pending, int contact) {
     struct te_index* const index = &state->index;
-    if (!has_acceleration(state)) return contact ? SLIDING : NO_CONTACT;
+    if (!has_acceleration(state)) {
+        if (contact) index->sliding_assumed = 1U;
+        return contact ? SLIDING : NO_CONTACT;
+    }
     if (!index->rest_decided) {
         if (end_of(state, pending->begin_ns) < te_first_contact_ns(state)) {
             if (index->rest_count < UINT32_MAX) ++index->rest_count;
@@ -268,6 +271,7 @@ static void evaluate(struct te_state* state, struct te_pending* pending, struct 
     if (has_taxels(state)) touch = te_taxels_at(state, frame->t_ns);
     motion = motion_of(state, pending, frame->contact != 0U);
     frame->sliding = motion == SLIDING;
+    frame->sliding_assumed = state->index.sliding_assumed;
     frame->h = pending->h;
     frame->v = touch.v;
     frame->R = next_roughness(state, frame->t_ns, motion, frame->h, frame->v);

@@ -148,7 +148,7 @@ struct te_state {
     uint32_t accepted, stopped;
     int64_t asked_ns, rested_ns;                   /* last te_next_train(), and the rest so far */
     uint32_t windows_lost, trains, trains_refused; /* counts, for a status */
-    uint32_t refusal;                              /* enum te_refusal of the last train refused */
+    uint32_t refusal;                              /* te_refused() */
 };
 
 #endif
