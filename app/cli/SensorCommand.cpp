@@ -1,4 +1,5 @@
-// sensor: shows a technician a sensor board's identity, its settings and the quality of its connection.
+// sensor: shows a technician a sensor board's identity, its settings and the quality of its connection, and how well
+// the board's own encoder agrees with the bench.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -10,6 +11,7 @@
 
 #include "app/cli/Command.h"
 #include "app/cli/Say.h"
+#include "app/cli/SensorCompare.h"
 #include "app/cli/TextTable.h"
 #include "app/run/AllDrivers.h"
 #include "app/run/SignalStop.h"
@@ -84,10 +86,15 @@ using sensorboard::SampleFormat;
 constexpr double kMinSeconds = 0.5;
 constexpr double kMaxSeconds = 3600;
 constexpr double kSecondsUsual = 2;
+constexpr double kSecondsCompared = 20;
 
 void declareSensor(QCommandLineParser& parser) {
     parser.addOption(
-        {"seconds", "How long to listen, 0.5 to 3600 s; a longer time makes the clock drift more certain (2 s).", "S"});
+        {"seconds",
+         "How long to listen, 0.5 to 3600 s; a longer time makes the clock drift more certain (status: 2 s; compare: "
+         "20 s, a recording to its end).",
+         "S"});
+    parser.addOption({"profile", "compare: profile to use instead of the shipped one.", "F"});
     parser.addOption({"json", "Prints one JSON value."});
 }
 
@@ -187,16 +194,21 @@ void printText(const SensorBoard& board, const Listened& heard) {
 
 int runSensor(const QCommandLineParser& parser) {
     const auto given = parser.positionalArguments();
-    if (given.isEmpty()) return usage("sensor: status is missing");
-    if (given.front() != "status")
-        return usage(fmt::format("sensor: there is no \"{}\"; status is expected", given.front().toStdString()));
-    if (given.size() > 2)
+    if (given.isEmpty()) return usage("sensor: status or compare is missing");
+    const bool compares = given.front() == "compare";
+    if (!compares && given.front() != "status")
+        return usage(
+            fmt::format("sensor: there is no \"{}\"; status or compare is expected", given.front().toStdString()));
+    if (!compares && parser.isSet("profile")) return usage("sensor status: --profile is for compare");
+    if (!compares && given.size() > 2)
         return usage(
             fmt::format("sensor status: one URI is expected, and \"{}\" is a second one", given.at(2).toStdString()));
-    const auto seconds = parser.isSet("seconds") ? numberOption(parser, "seconds") : Result<double>(kSecondsUsual);
+    const auto seconds = parser.isSet("seconds") ? numberOption(parser, "seconds")
+                                                 : Result<double>(compares ? kSecondsCompared : kSecondsUsual);
     if (!seconds) return failWith(seconds.error());
     if (!(*seconds >= kMinSeconds && *seconds <= kMaxSeconds))
         return usage(fmt::format("--seconds is {}; {} to {} s is expected", *seconds, kMinSeconds, kMaxSeconds));
+    if (compares) return compareSensor(parser, *seconds);
     const auto uri = DeviceUri::parse(given.size() == 2 ? given.at(1).toStdString() : std::string("sensor:"));
     if (!uri) return failWith(uri.error());
     if (uri->scheme != "sensor")
@@ -217,8 +229,10 @@ int runSensor(const QCommandLineParser& parser) {
 
 }  // namespace
 
-const Command kSensor{"sensor", "status [URI] [--seconds S] [--json]",
-                      "A sensor board by hand: its identity, settings, calibration, rates, clock drift and losses",
-                      declareSensor, runSensor};
+const Command kSensor{
+    "sensor", "{status [URI] [--seconds S] [--json] | compare RECORDING|URI [--profile F] [--seconds S] [--json]}",
+    "A sensor board by hand: its identity, settings, calibration, rates, clock drift and losses; its "
+    "own encoder beside the bench's",
+    declareSensor, runSensor};
 
 }  // namespace tacto::cli

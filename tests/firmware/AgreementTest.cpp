@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 #include <iostream>
 
+#include "app/run/EncoderComparison.h"
+#include "core/acquisition/Recording.h"
+#include "drivers/replay/ReplayDrivers.h"
 #include "drivers/simulated/SimulatedDriver.h"
-#include "tests/firmware/BoardAndHost.h"
+#include "tests/support/Limits.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -11,58 +14,69 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What issue 51 asks for. Returns the number of trains.
-std::size_t expectAgreement(const Samples& samples, const RoughnessSettings& roughness, const std::string& what,
-                            const EncodingProfile& encoding = {}) {
-    const auto found = compare(samples, roughness, encoding, what);
+struct Trains {
+    std::size_t trains = 0, refused = 0;
+};
+
+/// What issue 51 asks for, until the sensor has finished or for `seconds`.
+Trains expectAgreement(Driver& driver, const DeviceUri& uri, const Profile& profile, const std::string& what,
+                       double seconds = 1e9, const EncoderOutput& output = idealOutput()) {
+    VirtualClock clock;
+    DeviceSet devices;
+    const auto opened = driver.open(uri, {}, OpenContext{clock, 3, "1 kohm"}, devices);
+    EXPECT_TRUE(opened) << opened.error().message;
+    if (!opened) return {};
+    auto comparison = EncoderComparison::create(*devices.sensor, profile, output, limitSets(), clock);
+    EXPECT_TRUE(comparison) << what << ": " << comparison.error().message;
+    if (!comparison) return {};
+    for (bool last = false; !last && toSeconds(clock.now()) < seconds;) {
+        last = devices.sensor->finished();
+        const auto turned = (*comparison)->turn();
+        EXPECT_TRUE(turned) << turned.error().message;
+        clock.advanceTo(clock.now() + EncoderComparison::kTurn);
+    }
+    const auto found = (*comparison)->agreement();
+    EXPECT_TRUE(found.refusedAlike) << what << ": " << found.unlike;
+    EXPECT_EQ(found.unlike, "");
     EXPECT_LE(found.maxR, 0.01) << what;
     EXPECT_LE(found.maxP, 0.002) << what;
-    double sample_s = 1e-3;  // without acceleration
-    for (const auto& info : samples.streams)
-        if (info.kind == StreamKind::Acceleration) sample_s = 1 / info.rate_hz;
-    EXPECT_LE(found.maxOnset_s, sample_s) << what;
-    EXPECT_LE(found.maxAmplitude, 0.005) << what;
-    std::cout << what << ": " << found.board.frames.size() << " frames, " << found.board.trains.size()
-              << " trains; differences: R " << found.maxR << ", P " << found.maxP << ", onset " << found.maxOnset_s
-              << " s, amplitude " << 100 * found.maxAmplitude << " %\n";
-    return found.board.trains.size();
+    EXPECT_LE(found.maxOnset_s, (*comparison)->sample_s()) << what;
+    if (output.source.amplitudeStep == 0)
+        EXPECT_LE(found.maxAmplitude, 0.005) << what;
+    else
+        EXPECT_LE(found.maxAmplitudeSteps, 1.0001) << what;
+    EXPECT_TRUE(found.holds((*comparison)->sample_s())) << what;
+    std::cout << what << ": " << found.frames << " frames, " << found.trains << " trains; differences: R " << found.maxR
+              << ", P " << found.maxP << ", onset " << found.maxOnset_s << " s, amplitude " << 100 * found.maxAmplitude
+              << " %, refused " << (*comparison)->board().refused_s.size() << "\n";
+    return {found.trains, (*comparison)->board().refused_s.size()};
 }
 
 std::size_t expectAgreementOnEach(const fs::path& folder) {
+    const auto driver = makeRecordingDriver();
     std::size_t found = 0, trains = 0;
     for (const auto& entry : fs::recursive_directory_iterator(folder)) {
         if (entry.path().extension() != ".json") continue;
-        const auto recording = Recording::open(entry.path());
-        if (!recording) continue;  // others' refusals have their own tests
+        if (!Recording::open(entry.path())) continue;  // others' refusals have their own tests
         ++found;
-        const Samples samples{recording->infos(), recording->blocks()};
         const auto what = fs::relative(entry.path(), folder.parent_path()).string();
         for (const auto taxel : {TaxelFeature::Static, TaxelFeature::Dynamic}) {
-            RoughnessSettings roughness;
-            roughness.taxel = taxel;
-            if (taxel == TaxelFeature::Dynamic) roughness.spectral = SpectralFeature::Absolute;
-            trains += expectAgreement(samples, roughness, what);
+            Profile profile;
+            profile.roughness.taxel = taxel;
+            if (taxel == TaxelFeature::Dynamic) profile.roughness.spectral = SpectralFeature::Absolute;
+            trains += expectAgreement(*driver, {"recording", entry.path().string(), {}}, profile, what).trains;
         }
     }
     EXPECT_GT(found, 0U) << folder;
     return trains;
 }
 
-Samples simulated(const std::string& uri, double seconds, std::uint64_t seed) {
-    VirtualClock clock;
-    DeviceSet devices;
+Trains expectAgreementOn(const std::string& uri, const EncodingProfile& encoding,
+                         const EncoderOutput& output = idealOutput()) {
+    Profile profile;
+    profile.encoding = encoding;
     const auto driver = makeSimulatedDriver();
-    const auto opened = driver->open(DeviceUri::parse(uri).value(), {}, OpenContext{clock, seed, "1 kohm"}, devices);
-    EXPECT_TRUE(opened) << opened.error().message;
-    Samples samples;
-    const auto streams = devices.sensor->streams();
-    samples.streams.assign(streams.begin(), streams.end());
-    samples.blocks.resize(streams.size());
-    while (toSeconds(clock.now()) < seconds) {
-        clock.advanceTo(clock.now() + toInstant(0.01));
-        EXPECT_TRUE(devices.sensor->read(samples.blocks));
-    }
-    return samples;
+    return expectAgreement(*driver, DeviceUri::parse(uri).value(), profile, uri, 12, output);
 }
 
 }  // namespace
@@ -95,17 +109,60 @@ TEST(EncoderOnBoard, AgreesWithTheBenchOnTheSimulatedFinger) {
     for (const char* material : {"P60", "P120", "plastic", "denim"}) {
         for (const char* force : {"0.4N", "3N"}) {
             const auto uri = fmt::format("sim:finger?material={}&force={}", material, force);
-            const auto samples = simulated(uri, 12, 3);
-            trains += expectAgreement(samples, {}, uri, shipped);
-            trains += expectAgreement(samples, {}, uri + ", curved and swapped", curved);
+            trains += expectAgreementOn(uri, shipped).trains;
+            trains += expectAgreementOn(uri, curved).trains;
         }
     }
     for (const char* more : {"rate=2000", "dropouts=0.02", "speed=5mm/s", "fault=stale@3s..3.5s", "fault=nan@3s..3.2s",
-                             "fault=stuck@3s..4s"}) {
-        const auto uri = fmt::format("sim:finger?material=P120&{}", more);
-        trains += expectAgreement(simulated(uri, 12, 4), {}, uri, shipped);
-    }
+                             "fault=stuck@3s..4s"})
+        trains += expectAgreementOn(fmt::format("sim:finger?material=P120&{}", more), shipped).trains;
     EXPECT_GT(trains, 150U);
+}
+
+TEST(EncoderOnBoard, RefusesTheTrainsThatTheBenchRefuses) {
+    RecordProperty("hazard", "H1");
+    EncodingProfile encoding;
+    encoding.train.pulses = 12;
+    encoding.intervalMin = Seconds(0.3);
+    auto stepped = idealOutput();
+    stepped.source.drive = Drive::Current;
+    stepped.source.amplitudeStep = 0.25;
+    EXPECT_GT(expectAgreementOn("sim:finger?material=P60&force=3N", encoding, stepped).trains, 3U);
+    stepped.source.amplitudeStep = 8;  // too coarse for the weaker trains
+    const auto made = expectAgreementOn("sim:finger?material=plastic&force=1N", encoding, stepped);
+    EXPECT_GT(made.refused, 3U);
+}
+
+TEST(EncoderAgreement, FindsWhatOneSideAloneHas) {
+    EncoderSide bench;
+    for (int k = 0; k < 10; ++k) {
+        bench.frames.push_back({.t_s = 0.016 * k, .contact = true, .sliding = true, .h = 1, .v = 1, .R = 0.5});
+        bench.trains.push_back({2.0 * k, 20});
+    }
+    bench.refused_s = {30};
+    const auto unlike = [&](auto change) {
+        EncoderSide board = bench;
+        change(board);
+        return agreementOf(bench, board, 0).unlike;
+    };
+    EXPECT_EQ(unlike([](auto&) {}), "");
+    EXPECT_EQ(unlike([](auto& board) { board.frames.erase(board.frames.begin() + 2); }),
+              "the bench alone has a frame at 0.032 s");
+    EXPECT_EQ(unlike([](auto& board) { board.frames[3].R = kNaN; }), "one side alone has R at 0.048 s");
+    EXPECT_EQ(unlike([](auto& board) { board.frames[3].contact = false; }), "one side alone has contact at 0.048 s");
+    EXPECT_EQ(unlike([](auto& board) { board.trains[4].onset_s += 0.026; }), "the bench alone has a train at 8.000 s");
+    EXPECT_EQ(unlike([](auto& board) { board.trains.push_back({40, 20}); }), "the board alone has a train at 40.000 s");
+    EXPECT_EQ(unlike([](auto& board) { board.refused_s.clear(); }), "the bench alone refuses a train at 30.000 s");
+    EncoderSide board = bench;
+    board.frames[1].R = 0.48;
+    board.trains[1] = {2.001, 20.3};
+    const auto found = agreementOf(bench, board, 0.25);
+    EXPECT_NEAR(found.maxR, 0.02, 1e-9);
+    EXPECT_NEAR(found.maxOnset_s, 0.001, 1e-9);
+    EXPECT_NEAR(found.maxAmplitude, 0.015, 1e-9);
+    EXPECT_NEAR(found.maxAmplitudeSteps, 1.2, 1e-9);
+    EXPECT_TRUE(found.refusedAlike);
+    EXPECT_FALSE(found.holds(0.002));
 }
 
 }  // namespace tacto::test

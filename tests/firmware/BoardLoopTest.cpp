@@ -11,7 +11,7 @@
 #include "drivers/sensor_board/Fields.h"
 #include "drivers/sensor_board/Messages.h"
 #include "resources/firmware/tactile_board/tactile_board.h"
-#include "tests/firmware/BoardAndHost.h"
+#include "app/run/EncoderComparison.h"
 
 namespace tacto::test {
 namespace {

@@ -11,16 +11,22 @@
 #include <sstream>
 #include <sys/wait.h>
 
+#include "app/run/EncoderComparison.h"
 #include "core/acquisition/Recording.h"
 #include "core/dsp/SampleHistory.h"
 #include "drivers/sensor_board/EncoderProfile.h"
-#include "tests/firmware/BoardAndHost.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// A fingertip's samples from the first on, without a word of when it rests.
+struct Samples {
+    std::vector<StreamInfo> streams;
+    std::vector<SampleBlock> blocks;
+};
 
 constexpr std::size_t kBoardTaxels = 8;
 constexpr double kTapeStep_s = 0.005;

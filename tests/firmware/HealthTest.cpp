@@ -5,8 +5,8 @@
 #include <limits>
 #include <memory>
 
+#include "app/run/EncoderComparison.h"
 #include "core/base/Random.h"
-#include "tests/firmware/BoardAndHost.h"
 
 namespace tacto::test {
 namespace {

@@ -1,0 +1,245 @@
+#include "app/run/EncoderComparison.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "core/bench/delivery/TrainPlanner.h"
+#include "core/bench/sensing/FingerInput.h"
+#include "core/dsp/SampleHistory.h"
+
+namespace tacto {
+
+namespace {
+
+constexpr double kTrainsApart_s = 0.025;  // half the shortest interval of the board
+constexpr double kMaxR = 0.01, kMaxP = 0.002, kMaxAmplitude = 0.005;
+
+te_stream streamOf(StreamKind kind) noexcept {
+    return kind == StreamKind::Acceleration ? TE_ACCELERATION : kind == StreamKind::Force ? TE_FORCE : TE_TAXEL_ARRAY;
+}
+
+/// The sensor without what its maker stated of rest and contact.
+class Undeclared final : public TactileSensor {
+public:
+    explicit Undeclared(TactileSensor& sensor) : sensor_(sensor) {}
+    [[nodiscard]] const DeviceIdentity& identity() const noexcept override { return sensor_.identity(); }
+    [[nodiscard]] std::span<const StreamInfo> streams() const noexcept override { return sensor_.streams(); }
+    [[nodiscard]] Result<void> read(std::span<SampleBlock> blocks) override { return sensor_.read(blocks); }
+
+private:
+    TactileSensor& sensor_;
+};
+
+double level(const PulseTrain& train) {
+    return std::visit([](auto amplitude) { return amplitude.value(); }, train.amplitude);
+}
+
+class BoardSide {
+public:
+    explicit BoardSide(const te_profile& profile) : state_(std::make_unique<te_state>()) {
+        (void)te_init(state_.get(), &profile);  // encoderProfile() has seen that it is accepted
+        te_rested(state_.get());
+    }
+
+    void feed(std::span<const StreamInfo> streams, std::span<const SampleBlock> blocks) {
+        for (std::size_t s = 0; s < blocks.size(); ++s) {
+            const auto channels = streams[s].channels;
+            std::vector<float> values(channels);
+            for (std::size_t i = 0; i < blocks[s].samples(); ++i) {
+                for (std::size_t c = 0; c < channels; ++c)
+                    values[c] = static_cast<float>(blocks[s].values[i * channels + c]);
+                te_samples(state_.get(), streamOf(streams[s].kind), toInstant(blocks[s].t_s[i]).count(), 0,
+                           values.data(), 1);
+            }
+        }
+        te_reading frame{};
+        while (te_frame(state_.get(), &frame) != 0) {
+            made_.frames.push_back({toSeconds(Instant(frame.t_ns)), frame.contact != 0, frame.sliding != 0, frame.h,
+                                    frame.v, frame.R, frame.pressure_pa, frame.P});
+        }
+    }
+
+    void drive(Instant now) {
+        const auto refused = state_->trains_refused;
+        te_train train{};
+        if (te_next_train(state_.get(), now.count(), &train) != 0)
+            made_.trains.push_back({toSeconds(Instant(train.onset_ns)), train.amplitude});
+        if (state_->trains_refused != refused) made_.refused_s.push_back(toSeconds(now));
+    }
+
+    [[nodiscard]] const EncoderSide& made() const noexcept { return made_; }
+
+private:
+    std::unique_ptr<te_state> state_;
+    EncoderSide made_;
+};
+
+void note(EncoderAgreement& found, std::string sentence) {
+    found.refusedAlike = false;
+    if (found.unlike.empty()) found.unlike = std::move(sentence);
+}
+
+/// Calls `both` for what lies within `apart` of each other in two rows in order of time, `alone` for the rest.
+template <class Row, class Time, class Both, class Alone>
+void pairUp(const Row& bench, const Row& board, double apart, Time time, Both both, Alone alone) {
+    std::size_t i = 0, k = 0;
+    while (i < bench.size() || k < board.size()) {
+        const double a = i < bench.size() ? time(bench[i]) : kInfinity_s;
+        const double b = k < board.size() ? time(board[k]) : kInfinity_s;
+        if (std::abs(a - b) <= apart)
+            both(bench[i++], board[k++]);
+        else if (a < b)
+            alone(time(bench[i++]), "the bench");
+        else
+            alone(time(board[k++]), "the board");
+    }
+}
+
+void compareFrames(const RoughnessFrame& bench, const RoughnessFrame& board, EncoderAgreement& found) {
+    ++found.frames;
+    if (bench.contact != board.contact) note(found, fmt::format("one side alone has contact at {:.3f} s", bench.t_s));
+    for (const auto& [name, value] : {std::pair{"R", &RoughnessFrame::R}, std::pair{"P", &RoughnessFrame::P},
+                                      std::pair{"h", &RoughnessFrame::h}, std::pair{"v", &RoughnessFrame::v}}) {
+        if (std::isnan(bench.*value) != std::isnan(board.*value))
+            note(found, fmt::format("one side alone has {} at {:.3f} s", name, bench.t_s));
+    }
+    // A value that is not a number leaves them as they are.
+    found.maxR = std::fmax(found.maxR, std::abs(bench.R - board.R));
+    found.maxP = std::fmax(found.maxP, std::abs(bench.P - board.P));
+}
+
+}  // namespace
+
+bool EncoderAgreement::holds(double sample_s) const noexcept {
+    return refusedAlike && maxR <= kMaxR && maxP <= kMaxP && maxOnset_s <= sample_s &&
+           (maxAmplitude <= kMaxAmplitude || (maxAmplitudeSteps > 0 && maxAmplitudeSteps <= 1 + 1e-6));
+}
+
+EncoderAgreement agreementOf(const EncoderSide& bench, const EncoderSide& board, double amplitudeStep, double apart_s) {
+    EncoderAgreement found;
+    const auto alone = [&](const char* what) {
+        return [&found, what](double t_s, const char* who) {
+            note(found, fmt::format("{} alone {} at {:.3f} s", who, what, t_s));
+        };
+    };
+    pairUp(
+        bench.frames, board.frames, apart_s, [](const auto& frame) { return frame.t_s; },
+        [&](const auto& ours, const auto& theirs) { compareFrames(ours, theirs, found); }, alone("has a frame"));
+    pairUp(
+        bench.trains, board.trains, kTrainsApart_s, [](const auto& train) { return train.onset_s; },
+        [&](const auto& ours, const auto& theirs) {
+            ++found.trains;
+            const double apart = std::abs(ours.amplitude - theirs.amplitude);
+            found.maxOnset_s = std::max(found.maxOnset_s, std::abs(ours.onset_s - theirs.onset_s));
+            found.maxAmplitude = std::max(found.maxAmplitude, apart / ours.amplitude);
+            if (amplitudeStep > 0) found.maxAmplitudeSteps = std::max(found.maxAmplitudeSteps, apart / amplitudeStep);
+        },
+        alone("has a train"));
+    pairUp(
+        bench.refused_s, board.refused_s, kTrainsApart_s, [](double t_s) { return t_s; }, [](double, double) {},
+        alone("refuses a train"));
+    return found;
+}
+
+EncoderOutput idealOutput() {
+    EncoderOutput output;
+    output.source.accuracy = StatedAccuracy::exact();
+    output.source.amplitudeMax = 60;
+    output.source.compliance = Volts(60);
+    output.source.widthStep = Micros(0);
+    output.source.widthMin = Micros(1);
+    output.load = LoadRange::declared(Load::resistor(Ohms(1000)));
+    return output;
+}
+
+struct EncoderComparison::State {
+    State(TactileSensor& finger, const Clock& at, const EncoderOutput& out, const EncodingProfile& encoding,
+          const te_profile& profile)
+        : sensor(finger),
+          clock(at),
+          gate(at),
+          planner(encoding, out.source, gate),
+          board(profile),
+          load(out.load.nominal.series),
+          step(out.source.amplitudeStep) {}
+
+    void driveBench(Instant now) {
+        const auto& frame = finger->latest();
+        if (finger->standing(toSeconds(now)) != FingerStanding::Fresh || !frame.contact || std::isnan(frame.R))
+            return planner.wantNothing();
+        const auto pressure = std::isnan(frame.P) ? std::nullopt : std::optional(frame.P);
+        if (!planner.want(frame.R, pressure, now)) return;
+        if (!(*planner.due() < now + kTurn)) return;
+        planner.armedOn(load);
+        if (const auto planned = planner.plan(now, load))
+            bench.trains.push_back({toSeconds(planned->onset), level(planned->approved.train())});
+        else
+            bench.refused_s.push_back(toSeconds(now));
+    }
+
+    Undeclared sensor;
+    const Clock& clock;
+    SafetyGate gate;
+    TrainPlanner planner;
+    std::unique_ptr<SensorSession> session;
+    std::unique_ptr<FingerInput> finger;
+    EncoderSide bench;
+    BoardSide board;
+    const Ohms load;
+    const double step;
+};
+
+EncoderComparison::EncoderComparison(std::unique_ptr<State> state) : state_(std::move(state)) {}
+EncoderComparison::~EncoderComparison() = default;
+
+Result<std::unique_ptr<EncoderComparison>> EncoderComparison::create(TactileSensor& sensor, const Profile& profile,
+                                                                     const EncoderOutput& output,
+                                                                     const std::vector<LimitSet>& limits,
+                                                                     const Clock& clock) {
+    const auto encoder =
+        encoderProfile(sensor.streams(), profile.roughness, profile.encoding, output, sensor.identity().serial);
+    if (!encoder) return failure(encoder);
+    auto state = std::make_unique<State>(sensor, clock, output, profile.encoding, *encoder);
+    GateSetup setup;
+    setup.source = output.source;
+    setup.load = output.load;
+    setup.limits = limits;
+    setup.ceilings = output.ceilings;
+    setup.electrodeArea = profile.electrodeArea;
+    setup.check = profile.encoding.train;
+    if (const auto configured = state->gate.configure(setup); !configured) return failure(configured);
+    auto session = SensorSession::create(state->sensor);
+    if (!session) return failure(session);
+    state->session = std::move(*session);
+    auto finger = FingerInput::create(*state->session, profile.roughness);
+    if (!finger) return failure(finger);
+    state->finger = std::move(*finger);
+    return std::unique_ptr<EncoderComparison>(new EncoderComparison(std::move(state)));
+}
+
+Result<void> EncoderComparison::turn() {
+    auto& s = *state_;
+    const Instant now = s.clock.now();
+    s.session->serve(now);
+    if (s.session->failed()) return fail(ErrorCode::Device, "{}", s.session->error().view());
+    s.finger->update();
+    s.bench.frames.insert(s.bench.frames.end(), s.finger->frames().begin(), s.finger->frames().end());
+    s.board.feed(s.sensor.streams(), s.finger->blocks());
+    s.driveBench(now);
+    s.board.drive(now);
+    return {};
+}
+
+const EncoderSide& EncoderComparison::bench() const noexcept { return state_->bench; }
+const EncoderSide& EncoderComparison::board() const noexcept { return state_->board.made(); }
+
+EncoderAgreement EncoderComparison::agreement() const { return agreementOf(bench(), board(), state_->step); }
+
+double EncoderComparison::sample_s() const noexcept {
+    for (const auto& info : state_->sensor.streams())
+        if (info.kind == StreamKind::Acceleration) return 1 / info.rate_hz;
+    return 1e-3;
+}
+
+}  // namespace tacto

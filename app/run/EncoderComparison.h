@@ -1,0 +1,84 @@
+// EncoderComparison.h - the same samples through the bench's chain and through the board's own encoder
+// (resources/firmware/tactile_encoder), turn by turn as the control loop takes them, and how far apart the results are.
+//
+// The bench's side is the bench's own code up to the gate: FingerInput, TrainPlanner, SafetyGate. Nothing is delivered.
+// A board knows no declared intervals of rest or contact, so neither side is told them.
+//
+// Thread-safety: none; one owner.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/Clock.h"
+#include "core/bench/ControlLoop.h"
+#include "core/bench/Profile.h"
+#include "core/devices/TactileSensor.h"
+#include "drivers/sensor_board/EncoderProfile.h"
+
+namespace tacto {
+
+/// A train of either side; amplitude in V, or mA of a current source.
+struct ComparedTrain {
+    double onset_s, amplitude;
+};
+
+/// What one side made of the samples.
+struct EncoderSide {
+    std::vector<RoughnessFrame> frames;
+    std::vector<ComparedTrain> trains;
+    std::vector<double> refused_s;  ///< when a train was refused
+};
+
+/// The largest differences between the frames and trains of both sides.
+struct EncoderAgreement {
+    std::size_t frames = 0, trains = 0;  ///< that both sides made
+    double maxR = 0, maxP = 0;
+    double maxAmplitude = 0;       ///< relative
+    double maxAmplitudeSteps = 0;  ///< in steps of the stimulator; 0 where it has none
+    double maxOnset_s = 0;
+    /// True if both made the same trains and frames, refused the same trains, and left out the same values.
+    bool refusedAlike = true;
+    std::string unlike;  ///< the first thing that one side alone has, in a sentence; empty if there is none
+
+    /// |dR| at most 0.01, |dP| at most 0.002, onsets within `sample_s`, amplitudes within 0.5 % or one step.
+    [[nodiscard]] bool holds(double sample_s) const noexcept;
+};
+
+/// Compares frames whose stamps differ by at most `apart_s`, and trains whose onsets differ by at most 25 ms.
+[[nodiscard]] EncoderAgreement agreementOf(const EncoderSide& bench, const EncoderSide& board, double amplitudeStep,
+                                           double apart_s = 2e-6);
+
+/// A voltage source of up to 60 V without steps or errors, on 1 kohm.
+[[nodiscard]] EncoderOutput idealOutput();
+
+class EncoderComparison {
+public:
+    static constexpr Instant kTurn = ControlLoop::kPeriod;
+
+    /// `sensor` and `clock` outlive the comparison. Errors: as encoderProfile(), SafetyGate::configure() and
+    /// RoughnessChain::create(); Unsupported for a stream of more channels than a session takes.
+    [[nodiscard]] static Result<std::unique_ptr<EncoderComparison>> create(TactileSensor& sensor,
+                                                                           const Profile& profile,
+                                                                           const EncoderOutput& output,
+                                                                           const std::vector<LimitSet>& limits,
+                                                                           const Clock& clock);
+    ~EncoderComparison();
+
+    /// Reads the sensor and lets both sides go on; to be called every kTurn. Errors: Device, as the sensor.
+    [[nodiscard]] Result<void> turn();
+
+    [[nodiscard]] const EncoderSide& bench() const noexcept;
+    [[nodiscard]] const EncoderSide& board() const noexcept;
+    [[nodiscard]] EncoderAgreement agreement() const;
+    /// The time between two samples of acceleration, or 1 ms: how far apart onsets may be.
+    [[nodiscard]] double sample_s() const noexcept;
+
+private:
+    struct State;
+    explicit EncoderComparison(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace tacto
