@@ -8,6 +8,7 @@
 #include "drivers/replay/ReplayDrivers.h"
 #include "drivers/sciencemode/ScienceModeDriver.h"
 #include "drivers/sciencemode/TtyTransport.h"
+#include "drivers/sensor_board/SimulatedBoard.h"
 #include "drivers/sensor_board/UsbSensorBoards.h"
 #include "drivers/sigrok/driver/SigrokDriver.h"
 #include "drivers/simulated/SimulatedDriver.h"
@@ -23,7 +24,8 @@ const UsbProduct kPulsePal{kPulsePalVendor, kPulsePalProduct};
 std::function<Registry()> allDrivers() {
     return [usb = makeUsbProvider()] {
         std::vector<std::unique_ptr<Driver>> drivers;
-        drivers.push_back(makeSimulatedDriver());
+        drivers.push_back(makeSimulatedDriver(
+            SimulatedBoards{sensorboard::SimulatedBoard::isOwn, sensorboard::SimulatedBoard::open}));
         drivers.push_back(makeRecordingDriver());
         drivers.push_back(makeCaptureDriver(captureFormats()));
         drivers.push_back(makeSigrokDriver(usb));

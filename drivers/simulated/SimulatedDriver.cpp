@@ -60,6 +60,8 @@ std::shared_ptr<World> worldOf(const DeviceSet& devices) {
 
 class SimulatedDriver final : public Driver {
 public:
+    explicit SimulatedDriver(std::optional<SimulatedBoards> boards) : boards_(boards) {}
+
     std::string_view scheme() const noexcept override { return "sim"; }
     bool runsOnVirtualClock() const noexcept override { return true; }
 
@@ -75,18 +77,38 @@ public:
     Result<void> open(const DeviceUri& uri, const std::set<Role>& wanted, const OpenContext& context,
                       DeviceSet& into) override {
         if (uri.path.empty()) return openWanted(uri, wanted, context, into);
+        if (uri.path == "board" && boards_) return openBoard(uri, context, into);
         for (const auto& kind : kinds()) {
             if (kind.path != uri.path) continue;
             if (auto free = into.checkFree(kind.role, uri); !free) return free;
             return openOne(kind, uri, context, into);
         }
         return uri.refuse(ErrorCode::NotFound,
-                          "there is no simulated \"{}\": sim:finger, sim:stimulator, sim:oscilloscope, sim:massager, "
+                          "there is no simulated \"{}\": sim:finger, sim:stimulator, sim:oscilloscope, sim:massager, {}"
                           "or sim: for all that are needed",
-                          uri.path);
+                          uri.path, boards_ ? "sim:board, " : "");
     }
 
 private:
+    /// Opens a finger, and puts its sensors on a board.
+    Result<void> openBoard(const DeviceUri& uri, const OpenContext& context, DeviceSet& into) const {
+        if (auto free = into.checkFree(Role::Sensor, uri); !free) return free;
+        DeviceUri finger{"sim", "finger", {}}, board{"sim", "board", {}};
+        for (const auto& [key, value] : uri.parameters) {
+            if (key == "on")
+                return uri.refuse(ErrorCode::InvalidArgument, "on={}: sim:finger can be fastened to a motor", value);
+            (boards_->isOwn(key) ? board : finger).parameters.emplace_back(key, value);
+        }
+        if (auto opened = openOne(kinds().front(), finger, context, into); !opened) return opened;
+        auto on = boards_->open(std::move(into.sensor), board, context.clock);
+        if (!on) {
+            into.surface.reset();
+            return failure(on);
+        }
+        into.sensor = std::move(*on);
+        return {};
+    }
+
     static Result<void> openWanted(const DeviceUri& uri, const std::set<Role>& wanted, const OpenContext& context,
                                    DeviceSet& into) {
         std::array<DeviceUri, 4> parts;
@@ -182,11 +204,15 @@ private:
             std::make_unique<SimulatedStimulator>(std::move(identity), std::move(world), read->stimulator);
         return {};
     }
+
+    const std::optional<SimulatedBoards> boards_;
 };
 
 }  // namespace
 }  // namespace sim
 
-std::unique_ptr<Driver> makeSimulatedDriver() { return std::make_unique<sim::SimulatedDriver>(); }
+std::unique_ptr<Driver> makeSimulatedDriver(std::optional<SimulatedBoards> boards) {
+    return std::make_unique<sim::SimulatedDriver>(boards);
+}
 
 }  // namespace tacto

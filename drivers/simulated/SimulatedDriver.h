@@ -7,6 +7,7 @@
 //   sim:oscilloscope?bits=12&noise=2mV
 //   sim:massager
 //   sim:finger?on=motor                                    the sensor, fastened to the massager's motor
+//   sim:board?material=P120                                the finger on a sensor board that encodes by itself
 //
 // Devices opened into one DeviceSet share one world: the oscilloscope sees what the stimulator drives. The load is
 // OpenContext::declaredLoad unless `load=` gives another. The same seed and the same calls at the same times give the
@@ -19,12 +20,21 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/devices/Driver.h"
 
 namespace tacto {
 
-/// Makes the driver of the scheme "sim". Works with the virtual and the steady clock.
-[[nodiscard]] std::unique_ptr<Driver> makeSimulatedDriver();
+/// How the sensors of a simulated finger are put on a board that encodes by itself: sim:board.
+struct SimulatedBoards {
+    bool (*isOwn)(std::string_view key);  ///< true for a key of the board's address; the rest are the finger's
+    Result<std::unique_ptr<TactileSensor>> (*open)(std::unique_ptr<TactileSensor> finger, const DeviceUri& uri,
+                                                   const Clock& clock);
+};
+
+/// Makes the driver of the scheme "sim". Works with the virtual and the steady clock. Without `boards` there is no
+/// sim:board.
+[[nodiscard]] std::unique_ptr<Driver> makeSimulatedDriver(std::optional<SimulatedBoards> boards = {});
 
 }  // namespace tacto
