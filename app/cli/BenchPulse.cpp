@@ -62,13 +62,7 @@ Result<void> BenchPulse::leaveFault() {
                     interlock_.reason().view(), outputAfter(interlock_.cause()));
     }
     const auto seen = interlock_.causesCame();
-    const auto fault = interlock_.unitFault();
-    if (const auto grave = fault ? graveCause(fault->causes) : std::nullopt)
-        return fail(
-            ErrorCode::NotArmed,
-            "nothing was reset: the stimulator is in a fault of {} ({}). Run the safety check first, load-safety "
-            "with --reset-fault, or open it under “Safety check” in the window",
-            nameOf(*grave), fault->reason.view());
+    if (auto may = interlock_.mayReset(); !may) return may;
     session_.forceOff();
     const auto status = device_.status();
     if (!status) return fail(ErrorCode::NotArmed, "not reset: {}", status.error().message);

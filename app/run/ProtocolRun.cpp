@@ -5,6 +5,7 @@
 
 #include "core/calibration/CertificateDetails.h"
 #include "core/kinds/ResultKinds.h"
+#include "core/session/Digest.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 #include "core/session/SessionVerify.h"
@@ -21,12 +22,22 @@ bool endedBySafety(const ScriptOutcome& outcome, const Bench& bench) {
     return code == ErrorCode::LimitExceeded || code == ErrorCode::NotArmed || code == ErrorCode::Stopped;
 }
 
-/// Puts a grave fault back into the record of a unit that no bench has open: its safety check did not pass.
-Result<void> leaveUnchecked(const LeftFault& fault, const Clock& clock) {
+/// Clears the grave fault that a unit's record holds, after the safety check that passed. No bench has the unit open.
+Result<void> clearChecked(const LeftFault& fault, const Clock& clock) {
     auto record = UnitRecord::open(unitFolders(), fault.unit, clock);
     if (!record) return failure(record);
-    (*record)->keepFault(*fault.grave, fault.reason);
+    const auto now = (*record)->fault();
+    if (!now || now->causes != fault.causes || now->reason.view() != fault.reason)
+        return fail(ErrorCode::NotArmed, "the check passed, but {} was left in another fault since ({})", fault.unit,
+                    now ? now->reason.view() : "reset");
+    (*record)->clearFault();
     return {};
+}
+
+/// True for the shipped safety check alone: another script, whatever it calls itself, has checked nothing.
+bool isSafetyCheck(const RunOrder& order) {
+    return resultTraits(order.declaration.kind).kind == ResultKind::LoadSafety &&
+           sha256Hex(order.script.text) == shippedLoadSafetySha256();
 }
 
 }  // namespace
@@ -56,7 +67,6 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
                                                           std::optional<LeftFault>* found) {
     std::unique_ptr<ProtocolRun> run(new ProtocolRun(std::move(given)));
     RunOrder& order = run->order_;
-    const auto acknowledged = std::exchange(order.faultSeen, {});  // from here on a grave fault that this run checks
     order.needed = order.ownNeeds.empty() ? order.declaration.needs : order.ownNeeds;
     order.declaredLoad = order.ownLoad.empty() ? declaredLoad(order.settings.parameters) : order.ownLoad;
     order.about = aboutScript(order);
@@ -75,10 +85,8 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
     if (!order.stops) order.asked = run->bench().stops().mark();
     if (const auto fault = run->presentFault()) {
         if (found != nullptr) *found = fault;
-        order.faultSeen = acknowledged;
-        const auto left = run->leaveFault(*fault);
-        order.faultSeen = left && fault->grave && !fault->unit.empty() ? fault : std::nullopt;
-        if (!left) return failure(left);
+        if (auto left = run->leaveFault(*fault); !left) return failure(left);
+        if (fault->grave()) run->checked_ = fault;
     }
     return run;
 }
@@ -86,15 +94,16 @@ Result<std::unique_ptr<ProtocolRun>> ProtocolRun::prepare(RunOrder given, Regist
 std::optional<LeftFault> ProtocolRun::presentFault() const {
     const auto fault = opened_->bench->unitFault();
     if (!fault) return std::nullopt;
-    LeftFault left{{}, std::string(fault->reason.view())};
-    if (const auto& stimulator = opened_->bench->devices().stimulator) {
-        left.unit = unitOf(stimulator->identity().serial, stimulator->identity().uri);
-        left.grave = graveCause(fault->causes);
-    }
-    return left;
+    const auto& devices = opened_->bench->devices();
+    const Device* unit = devices.stimulator ? static_cast<const Device*>(devices.stimulator.get())
+                         : devices.massager ? static_cast<const Device*>(devices.massager.get())
+                                            : static_cast<const Device*>(devices.sensor.get());
+    return LeftFault{unit != nullptr ? unitOf(unit->identity().serial, unit->identity().uri) : "the bench",
+                     std::string(fault->reason.view()), fault->causes};
 }
 
-/// Resets a fault that an earlier run left in the stimulator, if the operator asks for it, and then checks again.
+/// Resets a fault that an earlier run left in the stimulator, if the operator asks for it, and then checks again. After
+/// a grave cause the unit's record holds the fault until the safety check has passed.
 Result<void> ProtocolRun::leaveFault(const LeftFault& fault) {
     const auto kind = resultTraits(order_.declaration.kind).kind;
     if (order_.resetFault) {
@@ -102,11 +111,9 @@ Result<void> ProtocolRun::leaveFault(const LeftFault& fault) {
             return fail(ErrorCode::NotArmed,
                         "nothing was reset: the fault that was acknowledged is of {} ({}), and {} is in another ({})",
                         seen->unit, seen->reason, fault.unit, fault.reason);
-        if (!fault.grave || kind == ResultKind::LoadSafety) return bench().resetFault();
-        return fail(ErrorCode::NotArmed,
-                    "nothing was reset: {} is in a fault of {} ({}). Run the safety check first, load-safety with "
-                    "--reset-fault, or open it under “Safety check” in the window",
-                    fault.unit, nameOf(*fault.grave), fault.reason);
+        if (!fault.grave()) return bench().resetFault();
+        if (isSafetyCheck(order_)) return bench().resetFault({}, ResetBy::SafetyCheck);
+        return tl::unexpected(safetyCheckFirst(fault.unit, *fault.grave(), fault.reason));
     }
     const auto seen = bench().telemetry();
     const bool session = kind == ResultKind::PilotIdentification || kind == ResultKind::PilotThresholds;
@@ -119,9 +126,6 @@ Result<void> ProtocolRun::leaveFault(const LeftFault& fault) {
 
 ProtocolRun::~ProtocolRun() {
     if (script_) static_cast<void>(finish());
-    if (!opened_ || !opened_->bench || !order_.faultSeen) return;
-    opened_->bench.reset();  // the check was not even begun
-    static_cast<void>(leaveUnchecked(*order_.faultSeen, *opened_->clock));
 }
 
 Result<void> ProtocolRun::start(RunRequest hooks) {
@@ -212,10 +216,16 @@ RunResult ProtocolRun::finish() {
                                         kept->problems.empty() ? "" : kept->problems.front())});
     endCheck(result);
     result.weighTroubles();
-    if (const auto& unchecked = order_.faultSeen; unchecked && result.verdict() != nameOf(ScriptVerdict::Pass)) {
-        if (auto left = leaveUnchecked(*unchecked, *opened_->clock); !left) result.troubles.push_back(left.error());
-        if (!result.leftIn) result.leftIn = unchecked;
-        result.leftIn->grave = unchecked->grave;
+    if (checked_) {
+        Result<void> cleared = fail(ErrorCode::NotArmed, "the safety check did not pass");
+        if (result.verdict() == nameOf(ScriptVerdict::Pass)) {
+            cleared = clearChecked(*checked_, *opened_->clock);
+            if (!cleared) result.troubles.push_back(cleared.error());
+        }
+        if (!cleared) {
+            if (!result.leftIn) result.leftIn = checked_;
+            result.leftIn->causes |= checked_->causes;
+        }
     }
     // Read from disk, like everything else (hazard H8).
     const auto reader = SessionReader::open(result.session, opened_->seal);

@@ -16,9 +16,11 @@ namespace tacto {
 
 /// The fault in which a run left its stimulator, or found it.
 struct LeftFault {
-    std::string unit;                      ///< the stimulator's driver and serial number; empty: there is none
-    std::string reason;                    ///< as kept with the fault
-    std::optional<FaultCause> grave = {};  ///< the stimulator's graveCause(): the safety check comes before other runs
+    /// Driver and serial number of the stimulator, of the massager where there is none, or else of the sensor.
+    std::string unit;
+    std::string reason;        ///< as kept with the fault
+    std::uint32_t causes = 0;  ///< as in UnitFault
+    [[nodiscard]] std::optional<FaultCause> grave() const noexcept { return graveCause(causes); }
     /// True if it is the same fault of the same unit.
     [[nodiscard]] bool is(const LeftFault& other) const { return unit == other.unit && reason == other.reason; }
 };
@@ -99,6 +101,7 @@ private:
     std::shared_ptr<OpenedBench> opened_;  // the open bench, which the script uses too
     std::optional<Error> notStarted_;
     std::optional<LoadSafetyCheck> check_;  // the record of a load-safety run
+    std::optional<LeftFault> checked_;      // the grave fault that a pass of this run clears
     std::unique_ptr<ScriptRun> script_;     // declared last, so that it ends first
 };
 

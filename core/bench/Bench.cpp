@@ -137,7 +137,7 @@ Result<std::optional<Ohms>> Bench::checkImpedance(const ArmRequest& request) {
     return std::isfinite(ohms) ? std::optional(Ohms(ohms)) : std::nullopt;
 }
 
-Result<void> Bench::resetFault(std::optional<std::uint64_t> known) { return state_->leaveFault(known); }
+Result<void> Bench::resetFault(std::optional<std::uint64_t> known, ResetBy by) { return state_->leaveFault(known, by); }
 std::optional<UnitFault> Bench::unitFault() const noexcept { return state_->interlock.unitFault(); }
 
 bool Bench::faultPersists(FaultCause cause) const noexcept { return state_->interlock.causePersists(cause); }

@@ -121,8 +121,9 @@ public:
     [[nodiscard]] bool markMoment(Instant at, std::string word);
     /// Leaves Faulted. Searches again, by identity, for a device that was unplugged, which may take two seconds.
     /// `known`: Telemetry::causesCame as the operator saw it; without it, all causes until this call are known.
-    /// Errors: NotArmed while the cause of the fault persists, and if a cause came that is not known.
-    [[nodiscard]] Result<void> resetFault(std::optional<std::uint64_t> known = {});
+    /// Errors: NotArmed while the cause of the fault persists, if a cause came that is not known, and for an operator
+    /// after a grave cause. What a safety check resets stays in the unit's record until that is cleared.
+    [[nodiscard]] Result<void> resetFault(std::optional<std::uint64_t> known = {}, ResetBy by = ResetBy::Operator);
     /// See Interlock::unitFault(). Any thread.
     [[nodiscard]] std::optional<UnitFault> unitFault() const noexcept;
 

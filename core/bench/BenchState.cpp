@@ -209,8 +209,15 @@ Result<void> Bench::State::letReportsBeJudged() {
     return fail(ErrorCode::NotArmed, "not reset: the control loop does not run");
 }
 
-Result<void> Bench::State::leaveFault(std::optional<std::uint64_t> known) {
+Result<void> Bench::State::leaveFault(std::optional<std::uint64_t> known, ResetBy by) {
     if (interlock.state() != InterlockState::Faulted) return {};
+    if (interlock.causePersists(FaultCause::Internal)) {
+        return fail(ErrorCode::NotArmed, "a fault of the program itself is not reset: {}. Restart the program",
+                    interlock.reason().view());
+    }
+    if (by == ResetBy::Operator) {
+        if (auto may = interlock.mayReset(); !may) return may;
+    }
     constexpr int kLooks = 3;
     CausesCame seen = interlock.causesCame();
     if (known) seen.news = *known;
@@ -218,16 +225,12 @@ Result<void> Bench::State::leaveFault(std::optional<std::uint64_t> known) {
         seen.all = interlock.causesCame().all;
         if (const auto gone = lookIntoFault(); !gone) return gone;
         // A cause that came again meanwhile may be newer than what the devices answered.
-        const auto left = interlock.reset(seen);
+        const auto left = interlock.reset(seen, by);
         if (left || looks == kLooks || interlock.causesCame().news != seen.news) return left;
     }
 }
 
 Result<void> Bench::State::lookIntoFault() {
-    if (interlock.causePersists(FaultCause::Internal)) {
-        return fail(ErrorCode::NotArmed, "a fault of the program itself is not reset: {}. Restart the program",
-                    interlock.reason().view());
-    }
     // A massager cannot be asked for its health: the next burst shows whether it is there.
     if (auto* massager = output.massager()) massager->forceOff();
     if (auto* stimulator = output.stimulator()) {

@@ -47,7 +47,7 @@ struct Bench::State {
     ///                                               a source that does not read back arms on the operator's word
     ///   internal error                              never goes away: the program must be restarted
     /// Errors: NotArmed while the cause persists.
-    [[nodiscard]] Result<void> leaveFault(std::optional<std::uint64_t> known);
+    [[nodiscard]] Result<void> leaveFault(std::optional<std::uint64_t> known, ResetBy by);
     /// True if a manually driven train was refused after the caller last saw a refusal.
     [[nodiscard]] bool refusedByHand() const noexcept {
         return driving.load(std::memory_order_acquire) == DriveSource::Manual && loop->refusals() != refusalsSeen;

@@ -155,6 +155,7 @@ void ControlLoop::noteState(Instant now) noexcept {
         shown_.causesCame = parts_.interlock.causesCame().news;  // read first: `fault` covers all that this counts
         if (const auto cause = parts_.interlock.cause()) shown_.fault = cause;
     }
+    shown_.grave = parts_.interlock.grave();
     if (state == seenState_) return;
     const auto before = std::exchange(seenState_, state);
     const bool wasConnected = before != InterlockState::Disconnected;

@@ -12,6 +12,7 @@ Telemetry blinded(const Telemetry& telemetry) {
     seen.state = telemetry.state == InterlockState::Delivering ? InterlockState::Armed : telemetry.state;
     if (seen.state != InterlockState::Armed) seen.reason = std::string_view(withoutNumbers(telemetry.reason.view()));
     seen.fault = telemetry.fault;
+    seen.grave = telemetry.grave;
     seen.causesCame = telemetry.causesCame;
     seen.paused = telemetry.paused;
     seen.uncalibratedStimulator = telemetry.uncalibratedStimulator;

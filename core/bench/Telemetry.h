@@ -61,6 +61,7 @@ struct StepTelemetry {
     InterlockState state = InterlockState::Disconnected;
     FixedText<200> reason;            ///< the reason for a fault or the last stop; otherwise empty
     std::optional<FaultCause> fault;  ///< nothing unless faulted, or if the cause is not known
+    std::optional<FaultCause> grave;  ///< Interlock::grave(): only a safety check resets the fault
     std::uint64_t causesCame = 0;     ///< CausesCame::news of this bench, as of its last fault
     bool paused = false;
     DriveSource driving = DriveSource::Off;  ///< every stop, disarm and fault turns it off

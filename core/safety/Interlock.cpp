@@ -159,6 +159,21 @@ constexpr Rule<Reset> kResetRules[] = {
      }},
 };
 
+struct Grave {
+    ResetBy by;
+    std::optional<UnitFault> fault;
+    [[nodiscard]] std::optional<FaultCause> cause() const noexcept {
+        return fault ? graveCause(fault->causes) : std::nullopt;
+    }
+};
+
+constexpr Rule<Grave> kGraveRules[] = {
+    {ResetGrave, [](auto& g) { return g.by != ResetBy::SafetyCheck && g.cause(); },
+     [](auto& g) -> tl::unexpected<Error> {
+         return tl::unexpected(safetyCheckFirst("the stimulator", *g.cause(), g.fault->reason.view()));
+     }},
+};
+
 struct Leaving {
     CausesCame came, seen;
     FaultCause newest;
@@ -178,6 +193,13 @@ std::optional<FaultCause> graveCause(std::uint32_t causes) noexcept {
     for (const auto cause : kGraveCauses)
         if ((causes & bitOf(cause)) != 0) return cause;
     return std::nullopt;
+}
+
+Error safetyCheckFirst(std::string_view of, FaultCause grave, std::string_view reason) {
+    return {ErrorCode::NotArmed,
+            fmt::format("nothing was reset: {} is in a fault of {} ({}). Run the safety check first, load-safety with "
+                        "--reset-fault, or open it under “Safety check” in the window",
+                        of, nameOf(grave), reason)};
 }
 
 std::string_view nameOf(InterlockState state) noexcept { return wordFor(kStates, state); }
@@ -207,6 +229,15 @@ std::optional<FaultCause> Interlock::cause() const noexcept {
 
 std::optional<UnitFault> Interlock::unitFault() const noexcept {
     const std::lock_guard lock(mutex_);
+    return faultSinceItBegan();
+}
+
+std::optional<FaultCause> Interlock::grave() const noexcept {
+    const std::lock_guard lock(mutex_);
+    return Grave{ResetBy::Operator, faultSinceItBegan()}.cause();
+}
+
+std::optional<UnitFault> Interlock::faultSinceItBegan() const noexcept {
     if (state_.load(std::memory_order_relaxed) != InterlockState::Faulted) return std::nullopt;
     if (record_ != nullptr)
         if (auto kept = record_->fault()) return kept;
@@ -334,14 +365,25 @@ bool Interlock::causePersists(FaultCause cause) const noexcept {
     return (causes_ & bitOf(cause)) != 0;
 }
 
+Result<void> Interlock::keptFrom(ResetBy by) const { return judge(kGraveRules, Grave{by, faultSinceItBegan()}); }
+
+Result<void> Interlock::mayReset() const {
+    const std::lock_guard lock(mutex_);
+    return keptFrom(ResetBy::Operator);
+}
+
 Result<void> Interlock::reset() {
     const std::lock_guard lock(mutex_);
+    if (auto kept = keptFrom(ResetBy::Operator); !kept) return kept;
     return leaveFault();
 }
 
-Result<void> Interlock::reset(const CausesCame& seen) {
+Result<void> Interlock::reset(const CausesCame& seen, ResetBy by) {
     const std::lock_guard lock(mutex_);
     if (auto kept = judge(kLeaveRules, Leaving{came_, seen, lastNews_}); !kept) return kept;
+    const auto fault = faultSinceItBegan();
+    if (auto kept = keptFrom(by); !kept) return kept;
+    if (record_ != nullptr && fault && graveCause(fault->causes)) record_->holdFault();
     causes_ = 0;
     return leaveFault();
 }

@@ -53,6 +53,11 @@ struct UnitFault {
 /// Returns the gravest of the causes after which the output must be checked before it is armed: a device stuck on, a
 /// broken limit, net charge, an internal error, in this order. Nothing if `causes` has none of them.
 [[nodiscard]] std::optional<FaultCause> graveCause(std::uint32_t causes) noexcept;
+/// Who leaves a fault: nobody but a safety check one with a grave cause, and the unit's record holds it until it
+/// passes.
+enum class ResetBy { Operator, SafetyCheck };
+/// The refusal of every other reset after a grave cause. `of`: the device; `reason`: of the fault.
+[[nodiscard]] Error safetyCheckFirst(std::string_view of, FaultCause grave, std::string_view reason);
 [[nodiscard]] constexpr std::uint32_t bitOf(FaultCause cause) noexcept { return 1U << static_cast<unsigned>(cause); }
 
 /// How many causes have come since the interlock was made.
@@ -100,6 +105,9 @@ public:
     /// interlock has it (then without a time). Nothing unless Faulted.
     [[nodiscard]] std::optional<UnitFault> unitFault() const noexcept;
 
+    /// Returns the gravest cause since the fault began after which only a safety check resets, as graveCause().
+    [[nodiscard]] std::optional<FaultCause> grave() const noexcept;
+
     /// Keeps faults, until they are reset, in `record`, which outlives the interlock. If the record contains an earlier
     /// fault of the unit, the state becomes Faulted. Call once, after connect().
     void keepFaultsIn(UnitRecord& record) noexcept;
@@ -131,11 +139,14 @@ public:
     /// Notes that the cause was checked again and is gone. Does not leave Faulted.
     void causeGone(FaultCause cause) noexcept;
     [[nodiscard]] bool causePersists(FaultCause cause) const noexcept;
-    /// Faulted → Disarmed (Disconnected if the device was lost). Errors: NotArmed naming a cause that persists.
+    /// Errors: NotArmed after a grave cause.
+    [[nodiscard]] Result<void> mayReset() const;
+    /// Faulted → Disarmed (Disconnected if the device was lost). Errors: NotArmed naming a cause that persists; as
+    /// mayReset().
     [[nodiscard]] Result<void> reset();
     /// Notes that all causes of the fault were checked again and are gone, and resets. Refused if a cause has come that
     /// `seen` does not count: `all` as of before the check, `news` as the operator knew them. Errors: NotArmed.
-    [[nodiscard]] Result<void> reset(const CausesCame& seen);
+    [[nodiscard]] Result<void> reset(const CausesCame& seen, ResetBy by = ResetBy::Operator);
     [[nodiscard]] CausesCame causesCame() const noexcept;
 
     /// True if trains may be delivered: in Delivering.
@@ -145,8 +156,10 @@ public:
 
 private:
     [[nodiscard]] Result<void> move(InterlockState from, InterlockState to, const char* what);
-    [[nodiscard]] Result<void> leaveFault();  // under the lock
-    mutable std::mutex mutex_;                // guards everything below against concurrent changes
+    [[nodiscard]] Result<void> leaveFault();  // under the lock, as the next two
+    [[nodiscard]] std::optional<UnitFault> faultSinceItBegan() const noexcept;
+    [[nodiscard]] Result<void> keptFrom(ResetBy by) const;
+    mutable std::mutex mutex_;  // guards everything below against concurrent changes
     std::atomic<InterlockState> state_{InterlockState::Disconnected};
     FixedText<159> reason_;
     ErrorCode faultCode_ = ErrorCode::Device;

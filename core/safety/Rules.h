@@ -129,6 +129,7 @@ enum Check : int {
     ResetState,
     ResetCause,
     ResetSeen,
+    ResetGrave,
     // Train check
     TrainNoStatus,
     TrainGarbage,

@@ -200,8 +200,11 @@ void UnitRecord::takeOver() {
         map_.fault.write(unknown);
     }
     map_.head.write(head);
+    if (const Fault& kept = map_.fault.content; kept.causes != 0)
+        fault_ = UnitFault{static_cast<std::uint32_t>(kept.causes),
+                           std::chrono::sys_seconds(std::chrono::seconds(kept.wall_s)), textIn(kept.reason)};
     // Done last: until then the claim names another record, so this one would not be trusted.
-    if (claim_) claim_->take(head.id, map_.fault.content.causes != 0);
+    if (claim_) claim_->take(head.id, fault_.has_value());
     if (Instant(head.quietUntil_ns) > boot) {
         why_ = why.empty() ? "a program before this one did not know it either" : why;
         quietUntil_ = onClock(Instant(head.quietUntil_ns));
@@ -252,28 +255,34 @@ void UnitRecord::book(const BookedTrain& booked, const ResidualVoltages& left) n
     ++next_;
 }
 
-std::optional<UnitFault> UnitRecord::fault() const noexcept {
-    const Fault& kept = map_.fault.content;
-    if (kept.causes == 0) return std::nullopt;
-    return UnitFault{static_cast<std::uint32_t>(kept.causes),
-                     std::chrono::sys_seconds(std::chrono::seconds(kept.wall_s)), textIn(kept.reason)};
-}
-
 void UnitRecord::keepFault(FaultCause cause, std::string_view reason) noexcept {
-    Fault newer = map_.fault.content;
     // Keep the first reason, as the interlock does; add further causes.
-    if (newer.causes == 0) {
-        newer.wall_s = time_.wall().time_since_epoch().count();
-        copyText(newer.reason, reason);
-    }
-    newer.causes |= bitOf(cause);
-    map_.fault.write(newer);
-    if (claim_) claim_->keepFault(true);
+    if (!fault_) fault_ = UnitFault{0, time_.wall(), FixedText<159>(reason)};
+    fault_->causes |= bitOf(cause);
+    writeFault();
 }
 
 void UnitRecord::clearFault() noexcept {
-    map_.fault.write({});
-    if (claim_) claim_->keepFault(false);
+    fault_.reset();
+    writeFault();
+}
+
+void UnitRecord::holdFault() noexcept {
+    if (!held_) held_ = fault_;
+}
+
+void UnitRecord::writeFault() noexcept {
+    Fault newer;
+    for (const auto& each : {held_, fault_}) {
+        if (!each) continue;
+        if (newer.causes == 0) {
+            newer.wall_s = each->at.time_since_epoch().count();
+            copyText(newer.reason, each->reason.view());
+        }
+        newer.causes |= each->causes;
+    }
+    map_.fault.write(newer);
+    if (claim_) claim_->keepFault(newer.causes != 0);
 }
 
 UnitFolders unitFolders() { return {dataFolder() / "units", "/run/lock"}; }

@@ -84,14 +84,19 @@ public:
     void book(const BookedTrain& train, const ResidualVoltages& left) noexcept;
 
     /// Returns the fault in which the unit was left, until it is cleared.
-    [[nodiscard]] std::optional<UnitFault> fault() const noexcept;
+    [[nodiscard]] std::optional<UnitFault> fault() const noexcept { return fault_; }
     void keepFault(FaultCause cause, std::string_view reason) noexcept;
+    /// Clears the fault, and with it the file, unless the file holds one: see holdFault().
     void clearFault() noexcept;
+    /// Holds the present fault in the file, whatever is cleared, until the record is opened again: a safety check that
+    /// is killed before it passes has reset nothing (hazard H2).
+    void holdFault() noexcept;
 
 private:
     struct Map;
     UnitRecord(LockedFile&& file, std::unique_ptr<UnitClaim> claim, const Clock& clock, const SystemTime& time);
     void takeOver();
+    void writeFault() noexcept;
     [[nodiscard]] Instant onClock(Instant sinceBoot) const noexcept;
 
     const LockedFile file_;
@@ -101,7 +106,9 @@ private:
     const SystemTime& time_;
     std::string_view why_;
     Instant quietUntil_;
-    std::uint64_t next_ = 1;  // sequence number of the next train
+    std::uint64_t next_ = 1;          // sequence number of the next train
+    std::optional<UnitFault> fault_;  // the file has it and what is held
+    std::optional<UnitFault> held_;
 };
 
 // Notes from which record a unit was last driven, in a place that depends on no account or environment (H1): with two

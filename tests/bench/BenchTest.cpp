@@ -190,8 +190,11 @@ TEST_F(BenchTest, ASourceThatDriftsAboveItsCommandStopsOutput) {
     EXPECT_LT(bench_->clock().now(), 13s) << "2 % a second: 20 % after ten";
     EXPECT_EQ(state(), InterlockState::Faulted);
 
-    // An operator who resets without looking cannot arm: the drift is still there.
-    ASSERT_TRUE(bench_->resetFault());
+    // An operator cannot reset it, and a safety check cannot arm: the drift is still there.
+    EXPECT_EQ(bench_->telemetry().grave, FaultCause::LimitBroken);
+    EXPECT_THAT(bench_->resetFault(), refusedSaying("Run the safety check first"));
+    EXPECT_EQ(state(), InterlockState::Faulted);
+    ASSERT_TRUE(bench_->resetFault({}, ResetBy::SafetyCheck));
     const auto delivered = bench_->telemetry().trainsDelivered;
     EXPECT_THAT(arm(), refusedSaying("must be within 20 %"));
     EXPECT_EQ(state(), InterlockState::Faulted);

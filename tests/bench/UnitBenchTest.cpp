@@ -157,7 +157,15 @@ TEST_F(UnitBench, NoBrokenLimitIsLostInOrBesideALesserFault) {
         ASSERT_TRUE(unit) << steps;
         EXPECT_EQ(graveCause(unit->causes), FaultCause::LimitBroken) << steps;
         EXPECT_EQ(bench_->telemetry().fault, FaultCause::LimitBroken) << steps;
-        EXPECT_TRUE(bench_->resetFault()) << "once it was seen";
+        EXPECT_THAT(bench_->resetFault(), refusedSaying("Run the safety check first")) << "also once it was seen";
+        EXPECT_TRUE(bench_->resetFault({}, ResetBy::SafetyCheck));
+        EXPECT_EQ(bench_->telemetry().state, InterlockState::Disarmed);
+        open();  // the check was killed
+        EXPECT_EQ(graveCause(bench_->unitFault()->causes), FaultCause::LimitBroken);
+        EXPECT_THAT(arm(), refusedSaying("left by an earlier run"));
+        bench_.reset();
+        accepted(UnitRecord::open({folder_.path(), claims_.path()}, unitOf("F7", "fake:"), *clock_, time_))
+            ->clearFault();
     }
     EXPECT_GT(refused, 0) << "while the fault was left";
     EXPECT_GT(again, 1) << "after the reset";

@@ -118,6 +118,7 @@ inline constexpr std::array kCheckNames{
     TACTO_CHECK(ResetState),
     TACTO_CHECK(ResetCause),
     TACTO_CHECK(ResetSeen),
+    TACTO_CHECK(ResetGrave),
     TACTO_CHECK(TrainNoStatus),
     TACTO_CHECK(TrainGarbage),
     TACTO_CHECK(TrainOpen),

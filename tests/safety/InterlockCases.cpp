@@ -129,9 +129,9 @@ void addInterlockCases(std::vector<GateCase>& cases) {
     add(ResetCause, "resetting while the cause is there", [] {
         Interlock lock;
         if (!lock.connect()) return false;
-        lock.fault(FaultCause::NetCharge, "a test");
-        const bool refused = notArmed(lock.reset(), "persists: net charge");
-        lock.causeGone(FaultCause::NetCharge);
+        lock.fault(FaultCause::ShortElectrode, "a test");
+        const bool refused = notArmed(lock.reset(), "persists: shorted electrode");
+        lock.causeGone(FaultCause::ShortElectrode);
         return refused && lock.reset().has_value();
     });
     add(ResetSeen, "resetting when a cause has come that nobody saw", [] {
@@ -141,7 +141,20 @@ void addInterlockCases(std::vector<GateCase>& cases) {
         const auto seen = lock.causesCame();
         lock.fault(FaultCause::LimitBroken, "a test");
         const bool refused = notArmed(lock.reset(seen), "came meanwhile, limit broken");
-        return refused && lock.reset(lock.causesCame()).has_value();
+        return refused && lock.reset(lock.causesCame(), ResetBy::SafetyCheck).has_value();
+    });
+    add(ResetGrave, "resetting by hand after a grave cause", [] {
+        for (const auto cause :
+             {FaultCause::StuckOn, FaultCause::LimitBroken, FaultCause::NetCharge, FaultCause::Internal}) {
+            Interlock lock;
+            if (!lock.connect()) return false;
+            lock.fault(cause, "a test");
+            if (!notArmed(lock.mayReset(), "the safety check first") ||
+                !notArmed(lock.reset(lock.causesCame()), "the safety check first") ||
+                !lock.reset(lock.causesCame(), ResetBy::SafetyCheck))
+                return false;
+        }
+        return true;
     });
 
     add(TrainNoStatus, "no status 50 ms after a train", [] {

@@ -216,7 +216,7 @@ TEST(Interlock, NoCauseOfAnotherThreadIsLostWhileAFaultIsLeft) {
         const auto seen = lock.causesCame();
         if (lock.state() != State::Faulted) return;
         std::this_thread::yield();
-        const bool reset = lock.reset(seen).has_value();
+        const bool reset = lock.reset(seen, ResetBy::SafetyCheck).has_value();
         ++(reset ? resets : refusals);
         if (reset) left = seen.news;
     };

@@ -166,7 +166,7 @@ TEST_F(UnitRecordFile, IsNoLinkToAnotherFile) {
     }
 }
 
-TEST_F(UnitRecordFile, ADamagedFaultIsAFaultThatCanBeReset) {
+TEST_F(UnitRecordFile, ADamagedFaultIsAFaultThatASafetyCheckResets) {
     RecordProperty("hazard", "H1");
     for (const bool internal : {false, true}) {
         {
@@ -181,10 +181,11 @@ TEST_F(UnitRecordFile, ADamagedFaultIsAFaultThatCanBeReset) {
         EXPECT_EQ(interlock.state(), InterlockState::Faulted);
         EXPECT_FALSE(interlock.causePersists(FaultCause::Internal)) << "only in the program that had it";
         EXPECT_TRUE(interlock.causePersists(FaultCause::DeviceFault));
-        EXPECT_FALSE(interlock.reset()) << "not before the device was looked at";
         interlock.causeGone(FaultCause::DeviceFault);
-        EXPECT_TRUE(interlock.reset());
+        EXPECT_FALSE(interlock.reset()) << "not by hand: its cause is not known";
+        EXPECT_TRUE(interlock.reset(interlock.causesCame(), ResetBy::SafetyCheck));
         EXPECT_FALSE(found->record->fault());
+        found->record->clearFault();
     }
 }
 
@@ -279,6 +280,38 @@ TEST_F(UnitRecordFile, AFaultStaysWithTheUnitUntilItIsReset) {
 // copies.
 
 using testing::HasSubstr;
+
+TEST_F(UnitRecordFile, AGraveFaultStaysOnDiskThroughItsSafetyCheck) {
+    RecordProperty("hazard", "H2");
+    std::mt19937 random(49);
+    run()->record->keepFault(FaultCause::LimitBroken, "44 V were measured");
+    for (int kills = 0; kills < 40; ++kills) {
+        const auto check = run();
+        Interlock interlock;
+        ASSERT_TRUE(interlock.connect());
+        interlock.keepFaultsIn(*check->record);
+        ASSERT_TRUE(interlock.reset(interlock.causesCame(), ResetBy::SafetyCheck));
+        EXPECT_FALSE(interlock.unitFault());
+        for (int trips = std::uniform_int_distribution(0, 3)(random); trips > 0; --trips) {
+            const auto provoked = trips % 2 == 0 ? FaultCause::OpenElectrode : FaultCause::LoopSilent;
+            interlock.fault(provoked, "provoked");
+            ASSERT_EQ(interlock.unitFault()->causes, bitOf(provoked)) << "the check knows what it provoked";
+            if (trips == 1 && kills % 2 == 0) break;  // killed while it is faulted
+            ASSERT_TRUE(interlock.reset(interlock.causesCame()));
+        }
+        // What a kill leaves is what the file has.
+        ScratchDir other;
+        std::filesystem::copy(folder_.path(), other.path(), std::filesystem::copy_options::recursive);
+        ScratchDir claims;
+        const auto left =
+            accepted(UnitRecord::open({other.path(), claims.path()}, kUnit, check->clock, time_))->fault();
+        ASSERT_TRUE(left) << kills;
+        EXPECT_EQ(graveCause(left->causes), FaultCause::LimitBroken);
+        EXPECT_EQ(left->reason.view(), "44 V were measured");
+    }
+    run()->record->clearFault();
+    EXPECT_FALSE(run()->record->fault()) << "after a pass";
+}
 
 class UnitClaim : public UnitRecordFile {};
 

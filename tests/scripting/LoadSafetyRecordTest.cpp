@@ -6,11 +6,14 @@
 #include "app/run/LoadSafetyRecord.h"
 #include "app/run/ProtocolRun.h"
 #include "app/scripting/engine/ProtocolLibrary.h"
+#include "core/safety/UnitRecord.h"
 #include "core/session/Digest.h"
 #include "core/session/Origin.h"
 #include "core/session/SessionReader.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/scripting/DataHome.h"
+#include "tests/scripting/Technician.h"
+#include "tests/support/Refused.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -131,6 +134,88 @@ function run() { return verdict({ kind: "load-safety", verdict: "pass", reasons:
     SessionAbout about;
     about.devices = {{"sciencemode:/dev/ttyUSB0", "stimulator", "P24", "0815", "", false, origin::kHardware}};
     EXPECT_FALSE(loadSafetyCheckOf(altered.script, about, Profile(), "a.tacto"));
+}
+
+/// Opens the simulated bench with a stimulator that reports itself as real, so that its faults are kept.
+class KeptDriver final : public Driver {
+public:
+    explicit KeptDriver(std::string serial) : serial_(std::move(serial)) {}
+    [[nodiscard]] std::string_view scheme() const noexcept override { return "sim"; }
+    [[nodiscard]] std::vector<DeviceIdentity> list() const override { return {}; }
+    [[nodiscard]] bool runsOnVirtualClock() const noexcept override { return true; }
+    [[nodiscard]] Result<void> open(const DeviceUri& uri, const std::set<Role>& wanted, const OpenContext& context,
+                                    DeviceSet& into) override {
+        if (auto opened = twin_->open(uri, wanted, context, into); !opened) return opened;
+        into.stimulator = std::make_unique<RealLookingStimulator>(std::move(into.stimulator), serial_);
+        return {};
+    }
+
+private:
+    std::unique_ptr<Driver> twin_ = makeSimulatedDriver();
+    std::string serial_;
+};
+
+TEST_F(LoadSafetyRecord, OnlyAPassEndsAGraveFaultAlsoOfACheckThatIsKilled) {
+    RecordProperty("hazard", "H2");
+    const OwnSerial serial("LAB");
+    SteadyClock clock;
+    const auto unit = unitOf(serial.text(), "sim:");
+    const auto recordIn = [&](const UnitFolders& folders) { return accepted(UnitRecord::open(folders, unit, clock)); };
+    recordIn(unitFolders())->keepFault(FaultCause::LimitBroken, "44 V were measured");
+    const auto isLeft = [&](const UnitFolders& folders) {
+        const auto left = recordIn(folders)->fault();
+        return left && graveCause(left->causes) == FaultCause::LimitBroken &&
+               left->reason.view() == "44 V were measured";
+    };
+    std::vector<std::unique_ptr<Driver>> drivers;
+    drivers.push_back(std::make_unique<KeptDriver>(serial.text()));
+    Registry registry(std::move(drivers));
+    int kills = 0;
+    std::optional<LeftFault> leftIn;
+    const auto run = [&](RunOrder wanted, bool stopped) {
+        wanted.resetFault = true;
+        leftIn.reset();
+        auto made = ProtocolRun::prepare(std::move(wanted), registry, nullptr, &leftIn);
+        if (!made) return made.error().message;
+        Technician technician(nullptr);
+        RunRequest hooks;
+        hooks.operatorDesk = &technician;
+        hooks.onProgress = [&](const ScriptProgress&) {
+            // What a kill leaves is what the files have at that moment.
+            const ScratchDir disk, claims;
+            std::filesystem::copy(unitFolders().records, disk.path(), std::filesystem::copy_options::recursive);
+            EXPECT_TRUE(isLeft({disk.path(), claims.path()})) << "killed after " << kills << " steps";
+            ++kills;
+            if (stopped) (*made)->bench().stop("operator");
+        };
+        EXPECT_TRUE((*made)->start(std::move(hooks)));
+        const auto result = (*made)->finish();
+        leftIn = result.leftIn;
+        return result.verdict() + (result.outcome.error ? result.outcome.error->message : "");
+    };
+    auto altered = order({});
+    altered.script.text = R"(protocol({ title: "Passes", kind: "load-safety", needs: ["stimulator"] });
+function run() { return verdict({ kind: "load-safety", verdict: "pass", reasons: [] }); })";
+    altered.declaration = readDeclaration(altered.script).value();
+    altered.settings = {};
+    EXPECT_THAT(run(altered, false), HasSubstr("Run the safety check first")) << "not the shipped one";
+    EXPECT_TRUE(isLeft(unitFolders()));
+    const auto check = order({{"area", "3"}, {"steps", "2"}, {"trains", "2"}});
+    EXPECT_THAT(run(check, true), testing::StartsWith("stopped"));
+    EXPECT_TRUE(isLeft(unitFolders()));
+    ASSERT_TRUE(leftIn);
+    EXPECT_EQ(leftIn->grave(), FaultCause::LimitBroken);
+    {
+        auto unfinished = check;
+        unfinished.resetFault = true;
+        EXPECT_TRUE(ProtocolRun::prepare(unfinished, registry));
+    }
+    EXPECT_TRUE(isLeft(unitFolders())) << "a check that did not begin";
+    kills = 0;
+    EXPECT_EQ(run(check, false), "pass");
+    EXPECT_GT(kills, 5);
+    EXPECT_FALSE(leftIn);
+    EXPECT_FALSE(recordIn(unitFolders())->fault());
 }
 
 TEST_F(LoadSafetyRecord, OnlyHardwareThroughoutIsReal) {

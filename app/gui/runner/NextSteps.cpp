@@ -71,7 +71,7 @@ std::vector<NextStep> nextStepsAfter(const FinishedRun& run) {
     if (run.result.stoppedBySafety && std::ranges::any_of(run.order.uris, simulatesFault))
         steps.push_back(NextStep::WithoutFault);
     else if (const auto& fault = run.result.leftIn)
-        steps.push_back(fault->grave && resultTraits(run.order.declaration.kind).kind != ResultKind::LoadSafety
+        steps.push_back(fault->grave() && resultTraits(run.order.declaration.kind).kind != ResultKind::LoadSafety
                             ? NextStep::SafetyCheck
                             : NextStep::ResetFault);
     if (outcome.error || (!passed && !verdict.empty())) {

@@ -307,9 +307,8 @@ void ProtocolWorkspace::ask(bool resetFault) {
                              .arg(QString::fromStdString(declaredLoad(asked_.order().settings.parameters)));
     if (!resetFault) return panel_->askToArm(current);
     const auto& fault = *last_->result.leftIn;
-    const auto unit = fault.unit.empty() ? tr("the fingertip sensor") : qtext(fault.unit);
     panel_->askToArm(tr("The fault is reset first, of %1: %2 Is its cause gone? %3")
-                         .arg(unit, sentence(qtext(fault.reason)), current));
+                         .arg(qtext(fault.unit), sentence(qtext(fault.reason)), current));
 }
 
 /// True also while another run is just ending; its last messages are not for this page.

@@ -10,7 +10,9 @@ namespace tacto::gui {
 
 namespace {
 
-QString nextAfter(std::optional<FaultCause> cause) {
+QString nextAfter(std::optional<FaultCause> cause, bool grave) {
+    if (grave && !(cause && graveCause(bitOf(*cause))))
+        return FaultBanner::tr("Run the safety check: nothing else resets what was left in this unit.");
     if (!cause) return FaultBanner::tr("Fix the cause, reset the fault, then arm again.");
     switch (*cause) {
         case FaultCause::DeviceLost:
@@ -22,7 +24,7 @@ QString nextAfter(std::optional<FaultCause> cause) {
         case FaultCause::ShortElectrode:
             return FaultBanner::tr("Look for leads or electrodes that touch, then reset.");
         case FaultCause::NetCharge:
-            return FaultBanner::tr("Disconnect the electrodes and check the pulse on a resistor, then reset.");
+            return FaultBanner::tr("Disconnect the electrodes and run the safety check on resistors.");
         case FaultCause::StatusMissing:
             return FaultBanner::tr("Check the cable to the stimulator, then reset.");
         case FaultCause::LoopSilent:
@@ -31,9 +33,9 @@ QString nextAfter(std::optional<FaultCause> cause) {
             return FaultBanner::tr("Check the fingertip sensor and its cable, then reset.");
         case FaultCause::LimitBroken:
             return FaultBanner::tr(
-                "Run the safety check before you arm again: the stimulator delivered more than it may.");
+                "Run the safety check, which alone resets it: the stimulator delivered more than it may.");
         case FaultCause::StuckOn:
-            return FaultBanner::tr("Switch it off at its own switch and take the load off, then reset.");
+            return FaultBanner::tr("Switch it off at its own switch and take the load off, then run the safety check.");
         case FaultCause::Internal:
             break;
     }
@@ -76,7 +78,7 @@ void FaultBanner::refresh(const Telemetry& telemetry, QTime now) {
     const auto cause = reason.isEmpty() ? tr("The bench has faulted.") : reason;
     cause_->setText(faultedAt_.isValid() ? QString("%1 · %2").arg(faultedAt_.toString("HH:mm:ss"), cause) : cause);
     output_->setText(outputWords(telemetry));
-    const auto next = nextAfter(telemetry.fault);
+    const auto next = nextAfter(telemetry.fault, telemetry.grave.has_value());
     next_->setText(mayArm_ ? tr("%1 Arming is asked for next.").arg(next) : next);
     if (toolTip() == text()) return;
     setToolTip(text());
@@ -100,7 +102,7 @@ void FaultBanner::note(const Telemetry& telemetry, QTime now) {
         const bool before = state_ == InterlockState::Disconnected;  // it was there when the bench was opened
         if (state_ != InterlockState::Faulted) faultedAt_ = before ? QTime() : now;
         const bool allowed = state_ == InterlockState::Faulted ? mayArm_ : !before;
-        mayArm_ = allowed && !another && telemetry.fault && !graveCause(bitOf(*telemetry.fault));
+        mayArm_ = allowed && !another && telemetry.fault && !telemetry.grave;
         asJudged_ = (asJudged_ || state_ != InterlockState::Faulted) && saysNothingOfTrains(telemetry.fault);
     }
     at_ = telemetry.at;

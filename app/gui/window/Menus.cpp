@@ -56,6 +56,7 @@ void Menus::addBench() {
     const auto follow = [=, this](bool opens) {
         const auto activity = controller->activity();
         const auto state = controller->telemetry().state;
+        const auto grave = SafetyBar::whyNoReset(controller->telemetry());
         const auto closed = activity == Activity::Closed ? tr("No bench is open.") : QString();
         const auto taken = activity == Activity::Running ? tr("A run has the bench.") : closed;
         const auto unless = [opens](const QString& first, bool possible, const QString& why) {
@@ -68,7 +69,8 @@ void Menus::addBench() {
             {disarm, unless(closed, isOn(state), tr("The output is not armed."))},
             {pause, unless(closed, window_.safetyBar().canHold(true), tr("Nothing is delivered."))},
             {resume, unless(closed, window_.safetyBar().canHold(false), tr("Nothing is paused."))},
-            {reset, unless(taken, state == InterlockState::Faulted, tr("There is no fault."))}};
+            {reset, unless(unless(taken, state == InterlockState::Faulted, tr("There is no fault.")), grave.isEmpty(),
+                           grave)}};
         for (const auto& [action, why] : whyNot) {
             action->setEnabled(why.isEmpty());
             action->setToolTip(why);

@@ -227,7 +227,7 @@ void SafetyBar::refresh(const Telemetry& telemetry) {
     fault_->refresh(telemetry);
     showDevice(telemetry);
     showExposure(telemetry);
-    showButtons(telemetry.state);
+    showButtons(telemetry);
 }
 
 void SafetyBar::followReset(const Telemetry& telemetry) {
@@ -357,13 +357,16 @@ void SafetyBar::showExposure(const Telemetry& telemetry) {
     bars_->arrange();
 }
 
-void SafetyBar::showButtons(InterlockState state) {
+void SafetyBar::showButtons(const Telemetry& telemetry) {
+    const auto state = telemetry.state;
     const bool live = controller_.activity() == Activity::Live;
+    const auto grave = telemetry.grave;
     if (state == InterlockState::Faulted) {
         action_->setMeaning(tr(kActions[2]), true);
         action_->setToolTip(
-            tr("Checks the devices again and searches for an unplugged one. When the cause is gone the bench is "
-               "disarmed, and arming is asked for where nothing else must be checked first."));
+            grave ? whyNoReset(telemetry)
+                  : tr("Checks the devices again and searches for an unplugged one. When the cause is gone the bench "
+                       "is disarmed, and arming is asked for where nothing else must be checked first."));
     } else if (isOn(state)) {
         action_->setMeaning(tr(kActions[1]), false);
         action_->setToolTip(tr("Ends the output and disarms the bench."));
@@ -371,14 +374,14 @@ void SafetyBar::showButtons(InterlockState state) {
         action_->setMeaning(tr(kActions[0]), false);
         action_->setToolTip(tr("First of two steps. Nothing is delivered before the second."));
     }
-    action_->setEnabled(live && state != InterlockState::Disconnected);
+    action_->setEnabled(live && state != InterlockState::Disconnected && !grave);
     const bool runs = controller_.activity() == Activity::Running;
     paused_ = held(state);
     pause_->setMeaning(paused_ ? tr("Resume") : tr("&Pause"), paused_);
     pause_->setEnabled(pauseInstead_.has_value() || runs || state == InterlockState::Delivering || paused_);
     pause_->setVisible(state != InterlockState::Faulted);
     details_->setVisible(state == InterlockState::Faulted);
-    makePrimary(*action_, state == InterlockState::Faulted);
+    makePrimary(*action_, state == InterlockState::Faulted && !grave);
 }
 
 bool SafetyBar::held(InterlockState state) const {
@@ -399,6 +402,11 @@ void SafetyBar::pressAction() {
         emit armRequested();
     else
         controller_.disarm();
+}
+
+QString SafetyBar::whyNoReset(const Telemetry& telemetry) {
+    if (!telemetry.grave) return {};
+    return sentence(safetyCheckFirst("the stimulator", *telemetry.grave, telemetry.reason.view()));
 }
 
 void SafetyBar::resetFault() {

@@ -46,8 +46,10 @@ public:
     void setPauseInstead(std::optional<PauseInstead> instead);
     /// Does the same as the button Pause (true) or Resume (false).
     void holdOutput(bool hold);
-    /// Does the same as the button Reset.
+    /// Does the same as the button Reset; the bench refuses it after a grave cause.
     void resetFault();
+    /// Returns why a fault is not reset by hand; empty if it can be.
+    [[nodiscard]] static QString whyNoReset(const Telemetry& telemetry);
     /// True if Pause (true) or Resume (false) would have an effect, as of the last refresh().
     [[nodiscard]] bool canHold(bool hold) const;
     /// True if no train comes until Resume.
@@ -81,7 +83,7 @@ private:
     [[nodiscard]] double noteImpedance(const Telemetry& telemetry);
     void showCalibration();
     void showExposure(const Telemetry& telemetry);
-    void showButtons(InterlockState state);
+    void showButtons(const Telemetry& telemetry);
     void pressAction();
     void pressPause();
 

@@ -163,7 +163,7 @@ TEST(NextSteps, AfterAFaultTheWayBackComesFirst) {
     run.order.uris = {*DeviceUri::parse("sim:finger"), *DeviceUri::parse("sim:stimulator?gain=1&fault=open@3s")};
     EXPECT_EQ(gui::nextStepsAfter(run).front(), NextStep::WithoutFault);
     run.order.uris = {*DeviceUri::parse("sciencemode:")};
-    run.result.leftIn->grave = FaultCause::LimitBroken;
+    run.result.leftIn->causes = bitOf(FaultCause::LimitBroken);
     run.order.declaration.kind = "stimulator-calibration";
     EXPECT_EQ(gui::nextStepsAfter(run).front(), NextStep::SafetyCheck) << "not the run again";
     EXPECT_EQ(std::ranges::count(gui::nextStepsAfter(run), NextStep::ResetFault), 0);

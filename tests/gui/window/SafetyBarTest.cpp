@@ -225,6 +225,7 @@ TEST_F(Bar, OffersToArmOnlyIfEveryCauseOfAFaultAllowsIt) {
             lock.fault(cause, "why");
             auto now = in(InterlockState::Faulted, "why");
             now.fault = lock.cause();
+            now.grave = lock.grave();
             bar.refresh(now);
             const auto says = bar.findChild<gui::FaultBanner*>()->text();
             ASSERT_EQ(says.contains("Arming is asked for"), safe) << came << says.toStdString();
@@ -237,6 +238,29 @@ TEST_F(Bar, OffersToArmOnlyIfEveryCauseOfAFaultAllowsIt) {
     }
     EXPECT_GT(allowed, 30);
     EXPECT_LT(allowed, 270);
+}
+
+TEST_F(Bar, AGraveFaultIsNotResetByHand) {
+    RecordProperty("hazard", "H2");
+    ASSERT_IN_TIME(armed({"sim:stimulator?fault=stuck-on@1s"}));
+    controller.drive(DriveSource::Manual, 0, 1);
+    const auto faulted = [this] {
+        bar.refresh(controller.telemetry());
+        return controller.telemetry().state == InterlockState::Faulted;
+    };
+    ASSERT_IN_TIME(comesTrue(faulted));
+    EXPECT_TRUE(faulted());
+    const auto* reset = bar.findChild<QPushButton*>("armButton");
+    EXPECT_FALSE(reset->isEnabled());
+    EXPECT_TRUE(reset->toolTip().contains("in a fault of stuck on")) << reset->toolTip().toStdString();
+    EXPECT_TRUE(reset->toolTip().contains("Run the safety check first"));
+    EXPECT_TRUE(bar.findChild<gui::FaultBanner*>()->text().contains("then run the safety check"));
+    QString said;
+    QObject::connect(&controller, &gui::BenchController::failed, [&](const QString& what) { said = what; });
+    bar.resetFault();  // as the menu does
+    ASSERT_IN_TIME(comesTrue([&] { return !said.isEmpty(); }));
+    EXPECT_TRUE(said.contains("Run the safety check first")) << said.toStdString();
+    EXPECT_TRUE(faulted());
 }
 
 TEST_F(Bar, StatesStandOutOnTheScreenInBothThemes) {
