@@ -176,15 +176,16 @@ constexpr Rule<Grave> kGraveRules[] = {
 
 struct Leaving {
     CausesCame came, seen;
-    FaultCause newest;
+    FaultCause newest, news;
 };
 
 constexpr Rule<Leaving> kLeaveRules[] = {
     {ResetSeen, [](auto& l) { return l.came != l.seen; },
      [](auto& l) {
-         return fail(ErrorCode::NotArmed,
-                     "not reset: another cause of the fault came meanwhile, {}. Look into it, then reset again",
-                     nameOf(l.newest));
+         const bool again = l.came.news == l.seen.news;
+         return fail(ErrorCode::NotArmed, "not reset: {} meanwhile, {}. Look into it, then reset again",
+                     again ? "the fault came again" : "another cause of the fault came",
+                     nameOf(again ? l.newest : l.news));
      }},
 };
 }  // namespace
@@ -341,6 +342,7 @@ void Interlock::fault(FaultCause cause, std::string_view reason, ErrorCode code)
     const std::lock_guard lock(mutex_);
     ticket_ = 0;
     ++came_.all;
+    last_ = cause;
     if ((causes_ & bitOf(cause)) == 0 || graveCause(bitOf(cause))) {
         ++came_.news;
         lastNews_ = cause;
@@ -380,7 +382,7 @@ Result<void> Interlock::reset() {
 
 Result<void> Interlock::reset(const CausesCame& seen, ResetBy by) {
     const std::lock_guard lock(mutex_);
-    if (auto kept = judge(kLeaveRules, Leaving{came_, seen, lastNews_}); !kept) return kept;
+    if (auto kept = judge(kLeaveRules, Leaving{came_, seen, last_, lastNews_}); !kept) return kept;
     const auto fault = faultSinceItBegan();
     if (auto kept = keptFrom(by); !kept) return kept;
     if (record_ != nullptr && fault && graveCause(fault->causes)) record_->holdFault();

@@ -165,7 +165,8 @@ private:
     ErrorCode faultCode_ = ErrorCode::Device;
     std::uint32_t causes_ = 0;  // one bit for each FaultCause still present
     CausesCame came_;
-    FaultCause lastNews_ = FaultCause::DeviceFault;
+    FaultCause last_ = FaultCause::DeviceFault;      // the newest of came_.all
+    FaultCause lastNews_ = FaultCause::DeviceFault;  // the newest of came_.news
     bool deviceLost_ = false;
     std::uint64_t ticket_ = 0;  // ticket of the pending request; 0 = none
     std::uint64_t lastTicket_ = 0;

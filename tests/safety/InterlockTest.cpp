@@ -198,6 +198,20 @@ TEST(Interlock, NoCauseThatComesWhileAFaultIsLeftIsLost) {
     }
 }
 
+TEST(Interlock, ARefusedResetNamesTheCauseThatCameAgain) {
+    RecordProperty("hazard", "H2");
+    Interlock lock;
+    bringTo(lock, State::Delivering);
+    lock.fault(FaultCause::StaleSensor, "first");
+    lock.fault(FaultCause::OpenElectrode, "second");
+    const auto seen = lock.causesCame();
+    lock.fault(FaultCause::StaleSensor, "again");
+    EXPECT_THAT(lock.reset(seen), refusedSaying("the fault came again meanwhile, stale sensor"));
+    lock.fault(FaultCause::DeviceLost, "third");
+    lock.fault(FaultCause::StaleSensor, "again");
+    EXPECT_THAT(lock.reset(seen), refusedSaying("another cause of the fault came meanwhile, device lost"));
+}
+
 TEST(Interlock, NoCauseOfAnotherThreadIsLostWhileAFaultIsLeft) {
     RecordProperty("hazard", "H2");
     Interlock lock;
