@@ -331,6 +331,47 @@ TEST_F(BenchTest, WhatNoFingertipGivesIsTheSameForTheBenchAsForItsFeatures) {
     }
 }
 
+/// One implausible acceleration at 1 s, and in the next read an implausible force with a stamp of 0.92 s.
+class LateKnock final : public TactileSensor {
+public:
+    explicit LateKnock(std::unique_ptr<TactileSensor> inner) : inner_(std::move(inner)) {}
+    const DeviceIdentity& identity() const noexcept override { return inner_->identity(); }
+    std::span<const StreamInfo> streams() const noexcept override { return inner_->streams(); }
+    Result<void> read(std::span<SampleBlock> blocks) override {
+        auto &fast = blocks[0], &slow = blocks[2];
+        if (reads_ == 1) {
+            slow.t_s.push_back(0.92);
+            slow.values.push_back(300);
+        }
+        if (reads_ > 0) ++reads_;
+        std::size_t i = fast.samples();
+        auto done = inner_->read(blocks);
+        for (; reads_ == 0 && i < fast.samples(); ++i) {
+            if (fast.t_s[i] < 1.0) continue;
+            fast.values[i * streams()[0].channels] += 6000;
+            reads_ = 1;
+        }
+        return done;
+    }
+
+private:
+    const std::unique_ptr<TactileSensor> inner_;
+    int reads_ = 0;  // since the implausible acceleration
+};
+
+TEST_F(BenchTest, AnOlderImplausibleValueDoesNotHideANewerOne) {
+    RecordProperty("hazard", "H7");
+    wrapSensor_ = [](std::unique_ptr<TactileSensor> inner) { return std::make_unique<LateKnock>(std::move(inner)); };
+    open({"sim:finger?material=P60&force=3N&stroke=60s"}, {Role::Sensor, Role::Stimulator});
+    ASSERT_TRUE(bench_->wait(Seconds(1.02)));
+    for (double t = 1.02; t < 1.095; t += 0.005) {
+        EXPECT_EQ(bench_->telemetry().finger, FingerStanding::Implausible) << t;
+        ASSERT_TRUE(bench_->wait(Seconds(0.005)));
+    }
+    ASSERT_TRUE(bench_->wait(Seconds(0.2)));
+    EXPECT_NE(bench_->telemetry().finger, FingerStanding::Implausible);
+}
+
 TEST_F(BenchTest, StaleCorruptOrMissingSensorDataDriveNothing) {
     RecordProperty("hazard", "H7");
     for (const auto* fault : {"stale@3s", "nan@3s", "unplug@3s", "stuck@3s"}) {

@@ -79,7 +79,7 @@ std::optional<double> FingerInput::standsStillSince() const noexcept {
 }
 
 FingerStanding FingerInput::standing(double now_s) const noexcept {
-    if (std::abs(now_s - implausible_s_) <= StreamHealth::kStale_s) return FingerStanding::Implausible;
+    if (now_s - implausible_s_ <= StreamHealth::kStale_s) return FingerStanding::Implausible;
     // A stamp in the future does not tell how old the data are, so it is as bad as a stale one.
     const auto current = [&](double age_s, double allowed_s) {
         return age_s <= StreamHealth::kStale_s + allowed_s && age_s >= -StreamHealth::kStale_s;
@@ -96,7 +96,7 @@ void FingerInput::watchRange(std::size_t stream) noexcept {
     const double largest = mostPlausible(info.unit);
     for (std::size_t i = 0; i < block.values.size(); ++i) {
         const double value = chain_->inUse(stream, i % info.channels, block.values[i]);
-        if (!(std::abs(value) <= largest)) implausible_s_ = block.t_s[i / info.channels];
+        if (!(std::abs(value) <= largest)) implausible_s_ = std::max(implausible_s_, block.t_s[i / info.channels]);
     }
 }
 
