@@ -6,12 +6,12 @@
 #include <gtest/gtest.h>
 #include <memory>
 
+#include "app/run/EncoderComparison.h"
 #include "core/base/Random.h"
 #include "drivers/sensor_board/EncoderProfile.h"
 #include "drivers/sensor_board/Fields.h"
 #include "drivers/sensor_board/Messages.h"
 #include "resources/firmware/tactile_board/tactile_board.h"
-#include "app/run/EncoderComparison.h"
 
 namespace tacto::test {
 namespace {
