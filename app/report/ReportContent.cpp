@@ -223,7 +223,8 @@ void addResults(const nlohmann::json& results, bool limitsAlone, Captions& capti
             add(closestOf(limits, captions.table("Closest to their limits" + partial)));
             blocks.emplace_back(shortened(std::move(limits), captions.table(title)));
         } else if (table.shape == Shape::Sentences)
-            for (const auto& text : sentencesIn(value)) blocks.emplace_back(ParagraphBlock{capitalised(shownText(text))});
+            for (const auto& text : sentencesIn(value))
+                blocks.emplace_back(ParagraphBlock{capitalised(shownText(text))});
         if (blocks.size() > before && !table.note.empty())
             blocks.emplace_back(ParagraphBlock{QString::fromStdString(table.note), true});
     }
