@@ -12,6 +12,7 @@
 #include "core/devices/Device.h"
 #include "core/safety/UnitRecord.h"
 #include "core/session/Origin.h"
+#include "drivers/sensor_board/EncoderProfile.h"
 
 namespace tacto {
 
@@ -33,6 +34,14 @@ std::string originOf(const DeviceSet& devices, const DeviceIdentity& identity) {
         }
     }
     return identity.simulated ? origin::kSimulated : origin::kHardware;
+}
+
+/// Returns the hash of the profile that a board must have to encode for this bench.
+Result<std::uint32_t> hashForBoard(const TactileSensor& sensor, const Profile& profile, const GateSetup& setup) {
+    const auto made = encoderProfile(sensor.streams(), profile.roughness, profile.encoding,
+                                     {setup.source, setup.load, setup.ceilings}, sensor.identity().serial);
+    if (!made) return failure(made);
+    return made->hash;
 }
 
 /// Notes in the session which parts of the profile do not fit the devices, and warns about them.
@@ -153,6 +162,7 @@ Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry
     config.watched = order.watched;
     applyKnown(knownCalibration(config.devices), config);
     config.units = unitFolders();
+    config.encoderHash = hashForBoard;
     auto bench = Bench::create(std::move(config));
     if (!bench) return failure(bench);
     opened->bench = std::move(*bench);

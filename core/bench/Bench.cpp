@@ -79,6 +79,7 @@ Result<void> Bench::arm(const ArmRequest& request) {
     const auto load = parseLoad(request.load);
     if (!load) return failure(load);
     if (const auto confirmed = s.terms.checkConfirmed(request, *load); !confirmed) return confirmed;
+    if (const auto fits = s.terms.checkEncoder(*load); !fits) return fits;
     if (const auto well = s.health(); !well) return well;
     if (const auto holds = s.calibration.checkDate(); !holds) return holds;
     const auto command = s.terms.commandFor(request, *load, s.order.asked());
@@ -205,6 +206,11 @@ Result<void> Bench::setProfile(const Profile& profile, RBefore before) {
     if (armed && toJson(withSameRoughness) != toJson(s.config.profile)) {
         return fail(ErrorCode::NotArmed,
                     "the encoding and the limits of the profile cannot change while {}: disarm first", nameOf(state));
+    }
+    if (armed && s.terms.boardDrives() && toJson(profile) != toJson(s.config.profile)) {
+        return fail(ErrorCode::NotArmed,
+                    "the profile cannot change while {} and the fingertip's board encodes: disarm first",
+                    nameOf(state));
     }
     auto finger = s.makeFinger(profile);
     if (!finger) return failure(finger);

@@ -66,6 +66,10 @@ struct BenchConfig {
     /// Where the exposure and faults of units are kept (UnitRecord.h); empty: nowhere. A stimulator continues from its
     /// record, and no other process can use it meanwhile. A simulated stimulator never has a record.
     UnitFolders units;
+    /// Returns the hash of the profile that the board of `devices.sensor` must have, where its encoder drives
+    /// (EncodingSensor.h): of this profile, stimulator and load. Empty: such a board is not armed. Errors: what of them
+    /// a board cannot do.
+    std::function<Result<std::uint32_t>(const TactileSensor&, const Profile&, const GateSetup&)> encoderHash;
     const SystemTime* systemTime = nullptr;  ///< the unit record's clock; null: the system's clock. Outlives the bench
 };
 
@@ -182,9 +186,9 @@ public:
     /// Errors: NotArmed outside person mode, and if no impedance is known.
     [[nodiscard]] Result<PermittedLevel> levelLimit(Seconds interval) const;
 
-    /// Replaces the profile at the next step of the loop. While armed, only its `roughness` section may change.
-    /// Errors: NotArmed for any other change while armed; InvalidArgument for a profile that is not valid.
-    /// `before`: the purpose for which R was shown until now (see RBefore).
+    /// Replaces the profile at the next step of the loop. While armed, only its `roughness` section may change, and
+    /// nothing where the fingertip's board encodes. Errors: NotArmed for any other change while armed; InvalidArgument
+    /// for a profile that is not valid. `before`: the purpose for which R was shown until now (see RBefore).
     [[nodiscard]] Result<void> setProfile(const Profile& profile, RBefore before = RBefore::Shown);
     /// The calibration that is applied now.
     [[nodiscard]] const KnownLines& calibration() const noexcept;

@@ -132,10 +132,20 @@ Result<void> Bench::State::openRecorder(ControlLoop::Parts& parts) {
             if (!id) return failure(id);
             parts.sensorStreams.push_back(*id);
         }
-        const auto id = config.session->addStream(SessionStream{
-            "roughness frames", "frames", "", {"contact", "sliding", "h", "v", "R", "pressure_pa", "P"}, 0});
+        const std::vector<std::string> columns{"contact", "sliding", "h", "v", "R", "pressure_pa", "P"};
+        const auto id = config.session->addStream(SessionStream{"roughness frames", "frames", "", columns, 0});
         if (!id) return failure(id);
         parts.frameStream = *id;
+        if (const auto& encoder = sensor->encoder()) {
+            const auto board =
+                config.session->addStream(SessionStream{"board's frames", "board_frames", "", columns, 0});
+            if (!board) return failure(board);
+            parts.boardStream = *board;
+            const auto noted =
+                config.session->event(config.clock->now(), "board encodes",
+                                      {{"hash", fmt::format("{:08x}", encoder->hash)}, {"drives", encoder->drives}});
+            if (!noted) return failure(noted);
+        }
     }
     recorder =
         std::make_unique<SessionRecorder>(*config.session, SessionRecorder::Settings{.ownThread = !time.isVirtual()});

@@ -31,7 +31,7 @@ ControlLoop::ControlLoop(Parts parts, std::unique_ptr<FingerInput> finger, std::
       planner_(std::move(planner)),
       arming_(parts_.gate, parts_.interlock, load_),
       judge_(parts_.mode, parts_.gate, parts_.interlock, load_, sourceOf(parts_.stimulator)),
-      journal_(parts_.recorder, parts_.frameStream, parts_.sensorStreams),
+      journal_(parts_.recorder, parts_.frameStream, parts_.sensorStreams, parts_.boardStream),
       taps_(parts_.tap),
       finger_(std::move(finger), parts_.sensorReport, journal_, taps_),
       reading_(parts_.stimulator, load_, judge_),
@@ -298,6 +298,7 @@ void ControlLoop::updateCommand(Instant now) noexcept {
         return;
     }
     staleSeen_ = false;
+    if (finger->boardDrives()) return followBoard(now);
     const auto& frame = finger->latest();
     if (!frame.contact || std::isnan(frame.R)) {
         planner_->wantNothing();
@@ -308,6 +309,37 @@ void ControlLoop::updateCommand(Instant now) noexcept {
     if (const auto wanted = planner_->want(frame.R, pressure, now); !wanted) {
         refused(now, wanted.error().message);
     }
+}
+
+/// The board says what is played and when, and the bench whether: each of its trains goes to the gate once, on time, or
+/// not at all.
+void ControlLoop::followBoard(Instant now) noexcept {
+    const auto lateBy = [&](double onset_s) { return toSeconds(now) - onset_s; };
+    const auto skip = [&](double late_s) {
+        ++shown_.trainsSkipped;
+        journal_.boardTrainSkipped(now, late_s);
+        planner_->wantNothing();
+    };
+    finger_.noteFlags(now);
+    const auto& encoded = finger_.input()->encoded();
+    for (const auto& train : encoded.trains) {
+        if (const auto waiting = planner_->due()) skip(lateBy(toSeconds(*waiting - kBoardDelay)));
+        const double late_s = lateBy(train.onset_s);
+        if (!(std::abs(late_s) <= toSeconds(kBoardLate))) {
+            skip(late_s);
+            continue;
+        }
+        const Instant due = toInstant(Seconds(train.onset_s)) + kBoardDelay;
+        planner_->want(train, due);
+        const double interval_s = train.interval.count();
+        boardUntil_ = due + kBoardLate + toInstant(interval_s > 0 && interval_s < 60 ? interval_s : 0);
+    }
+    const auto due = planner_->due();
+    const bool silent = !encoded.silences.empty() && !shown_.boardSilent.empty();
+    if (due && (silent || *due < now - kBoardLate))
+        skip(lateBy(toSeconds(*due - kBoardDelay)));
+    else if (silent || (!due && now > boardUntil_))
+        planner_->wantNothing();
 }
 
 RoughnessFlags ControlLoop::flags() noexcept {

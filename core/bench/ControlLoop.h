@@ -35,6 +35,10 @@ class ControlLoop {
 public:
     /// The time from one step to the next.
     static constexpr Instant kPeriod = std::chrono::milliseconds(5);
+    /// A board's train is played this long after the board's onset, so that its way here, which is shorter, does not
+    /// change the interval to the next; one that is kBoardLate off is not played (hazard H7).
+    static constexpr Instant kBoardDelay = std::chrono::milliseconds(10);
+    static constexpr Instant kBoardLate = std::chrono::milliseconds(100);
 
     struct Parts {
         const Clock& clock;
@@ -51,6 +55,7 @@ public:
         const ReportingDevice* sensorReport = nullptr;  ///< the sensor, if it reports on itself
         /// A stop after the order to arm holds back all its check pulses and trains. Null: only the interlock does.
         StopCounter* stops = nullptr;
+        std::optional<int> boardStream = {};  ///< the recorder's stream for the frames of a board that encodes
     };
     ControlLoop(Parts parts, std::unique_ptr<FingerInput> finger, std::unique_ptr<TrainPlanner> planner);
 
@@ -128,6 +133,7 @@ private:
     void judgeBurst(const TrainReport& report) noexcept;
     void judgeCheck(const TrainReport& report) noexcept;
     void updateCommand(Instant now) noexcept;
+    void followBoard(Instant now) noexcept;
     void sendDue(Instant now) noexcept;
     void goOnPresenting(Instant now) noexcept;
     void renewReading(Instant now) noexcept;
@@ -167,6 +173,7 @@ private:
     DriveCommand drive_;
     InterlockState seenState_ = InterlockState::Disconnected;
     bool staleSeen_ = false;
+    Instant boardUntil_{0};  // when the next train of the board is overdue
     StepTelemetry shown_;
     Latest<StepTelemetry> latest_;
 };

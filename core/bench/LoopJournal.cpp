@@ -49,6 +49,15 @@ std::chrono::nanoseconds LoopJournal::standsStillFor() const noexcept {
     return recorder_ != nullptr ? recorder_->standsStillFor() : std::chrono::nanoseconds(0);
 }
 
+namespace {
+/// The columns of both encoders' streams, in order (BenchState.cpp).
+template <class Frame>
+std::array<double, 7> columnsOf(const Frame& frame) noexcept {
+    return {
+        frame.contact ? 1.0 : 0.0, frame.sliding ? 1.0 : 0.0, frame.h, frame.v, frame.R, frame.pressure_pa, frame.P};
+}
+}  // namespace
+
 void LoopJournal::finger(const FingerInput& finger) noexcept {
     if (recorder_ == nullptr) return;
     const auto blocks = finger.blocks();
@@ -56,16 +65,9 @@ void LoopJournal::finger(const FingerInput& finger) noexcept {
     for (std::size_t s = 0; s < blocks.size(); ++s) {
         if (blocks[s].samples() > 0) recorder_->samples(sensorStreams_[s], streams[s].channels, blocks[s]);
     }
-    for (const auto& frame : finger.frames()) {
-        const double columns[] = {frame.contact ? 1.0 : 0.0,
-                                  frame.sliding ? 1.0 : 0.0,
-                                  frame.h,
-                                  frame.v,
-                                  frame.R,
-                                  frame.pressure_pa,
-                                  frame.P};
-        recorder_->frame(frameStream_, frame.t_s, columns);
-    }
+    for (const auto& frame : finger.frames()) recorder_->frame(frameStream_, frame.t_s, columnsOf(frame));
+    if (!boardStream_) return;
+    for (const auto& frame : finger.encoded().frames) recorder_->frame(*boardStream_, frame.t_s, columnsOf(frame));
 }
 
 void LoopJournal::sensorLost(Instant at, const DeviceReport& report) noexcept {
@@ -78,6 +80,15 @@ void LoopJournal::sensorStale(Instant at, double age_s) noexcept {
 }
 
 void LoopJournal::flag(Instant at, RoughnessFlag flag) noexcept { event(at, kMarkEvent, {}, nameOf(flag)); }
+
+void LoopJournal::boardSilent(Instant at, std::string_view why) noexcept {
+    event(at, "board silent", {}, why.empty() ? "nothing keeps the board's trains back" : why);
+}
+
+void LoopJournal::boardTrainSkipped(Instant at, double late_s) noexcept {
+    event(at, "board train skipped", {{"late_s", late_s}},
+          "a train of the board came too late or too early to be played");
+}
 
 void LoopJournal::drive(Instant at, const DriveCommand& drive) noexcept {
     command(at, "drive", {{"roughness", drive.roughness}, {"pressure", drive.pressure}},

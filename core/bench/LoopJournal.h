@@ -5,6 +5,7 @@
 // Thread-safety: one caller, the control loop. Never blocks; allocates only if the interlock changes its state.
 #pragma once
 
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -23,10 +24,14 @@ void recordReport(SessionRecorder& recorder, Instant at, const DeviceReport& rep
 
 class LoopJournal {
 public:
-    /// `recorder` may be null and outlives the journal. The recorder has one stream for roughness frames, and one for
-    /// each stream of the sensor.
-    LoopJournal(SessionRecorder* recorder, int frameStream, std::vector<int> sensorStreams)
-        : recorder_(recorder), frameStream_(frameStream), sensorStreams_(std::move(sensorStreams)) {}
+    /// `recorder` may be null and outlives the journal. The recorder has one stream for roughness frames, one for each
+    /// stream of the sensor, and one for the frames of its board if that encodes.
+    LoopJournal(SessionRecorder* recorder, int frameStream, std::vector<int> sensorStreams,
+                std::optional<int> boardStream = {})
+        : recorder_(recorder),
+          frameStream_(frameStream),
+          sensorStreams_(std::move(sensorStreams)),
+          boardStream_(boardStream) {}
 
     /// Returns how long the disk has stood still; 0 without a recorder.
     [[nodiscard]] std::chrono::nanoseconds standsStillFor() const noexcept;
@@ -36,6 +41,10 @@ public:
     void sensorLost(Instant at, const DeviceReport& report) noexcept;
     void sensorStale(Instant at, double age_s) noexcept;
     void flag(Instant at, RoughnessFlag flag) noexcept;
+    /// `why` is empty when nothing keeps its trains back any longer.
+    void boardSilent(Instant at, std::string_view why) noexcept;
+    /// A train of the board that is not played: too late, too early, or with a newer one or a silence after it.
+    void boardTrainSkipped(Instant at, double late_s) noexcept;
 
     void drive(Instant at, const DriveCommand& command) noexcept;
     void interlock(Instant at, InterlockState state, std::string_view reason) noexcept;
@@ -61,6 +70,7 @@ private:
     SessionRecorder* recorder_;
     int frameStream_;
     std::vector<int> sensorStreams_;
+    std::optional<int> boardStream_;
 };
 
 }  // namespace tacto

@@ -82,6 +82,11 @@ struct StepTelemetry {
     std::uint64_t contactFrames = 0;  ///< number of frames with the spatial feature
     double sumV = 0;
 
+    bool boardDrives = false;     ///< true if the trains of the fingertip's board are played while it drives
+    double boardRoughness = NAN;  ///< R and P as its encoder sees them, if it encodes
+    double boardPressure = NAN;
+    FixedText<200> boardSilent;  ///< why its encoder sends no train; empty: nothing keeps trains back
+
     double amplitude_v = NAN;  ///< the encoder's commanded voltage A
     double interval_s = NAN;   ///< the encoder's commanded interval T
     double intensity = NAN;    ///< intensity of the last burst, 0 to 1; only with a massager

@@ -43,16 +43,32 @@ void TrainSeries::wantNothing() noexcept {
     startsAgain_ = true;
 }
 
+void TrainSeries::begun(const Command& command, Instant onset) noexcept {
+    command_ = command;
+    begun_ = Train{command, onset};
+    if (!goesOn(onset)) return;
+    const Seconds late = Seconds(onset - last_->onset) - programmedFor(command.interval, calibration_);
+    const Seconds longest = std::max(command.interval, encoder_.profile().intervalMax);
+    begun_->command.interval = std::clamp(command.interval + late, command.interval, longest);
+}
+
 Command TrainSeries::begin(Instant onset) noexcept {
-    command_ = limited(onset);
-    begun_ = Train{*command_, onset};
-    if (goesOn(onset)) {
-        const Seconds late = Seconds(onset - last_->onset) - programmedFor(command_->interval, calibration_);
-        const Seconds longest = std::max(command_->interval, encoder_.profile().intervalMax);
-        begun_->command.interval = std::clamp(command_->interval + late, command_->interval, longest);
-    }
+    begun(limited(onset), onset);
     scheduler_.trainAt(onset);
     return *command_;
+}
+
+bool TrainSeries::follow(const Command& made, Instant onset) noexcept {
+    constexpr double kSingle = 1.001;
+    constexpr Seconds kClocks{2e-3};
+    wantNothing();
+    if (goesOn(onset)) {
+        const auto most = encoder_.limited(last_->command, made, Seconds(onset - last_->onset) + kClocks);
+        const bool permitted = made.amplitude <= most.amplitude * kSingle && made.interval * kSingle >= most.interval;
+        if (!permitted) return false;
+    }
+    begun(made, onset);
+    return true;
 }
 
 void TrainSeries::delivered() noexcept {

@@ -70,6 +70,10 @@ public:
     /// The command of the next train; empty while no train is wanted.
     [[nodiscard]] const std::optional<Command>& command() const noexcept { return command_; }
 
+    /// Begins a train of another encoder, which also says when: nothing is due by itself. False, and nothing begins,
+    /// where it is stronger or sooner after the last delivered train than the profile permits (hazard H6), within
+    /// 0.1 % and 2 ms for clocks and single precision. It may be weaker or later at once.
+    [[nodiscard]] bool follow(const Command& made, Instant onset) noexcept;
     /// Returns the command of the train that begins at `onset`; want() must come before. The next train is due one
     /// interval later, whether or not this one is delivered.
     [[nodiscard]] Command begin(Instant onset) noexcept;
@@ -83,6 +87,7 @@ public:
 private:
     [[nodiscard]] bool goesOn(Instant onset) const noexcept;
     [[nodiscard]] Command limited(Instant onset) const noexcept;
+    void begun(const Command& command, Instant onset) noexcept;
 
     const Encoder encoder_;
     const KnownLines calibration_;

@@ -28,6 +28,36 @@ struct Seen {
     Volts amplitude;
 };
 
+TEST(TrainSeries, AnotherEncodersTrainIsNoLargerStepThanTheProfilePermits) {
+    testing::Test::RecordProperty("hazard", "H6");
+    TrainSeries series(limited());
+    ASSERT_TRUE(series.follow(command(20, 1), seconds(10))) << "nothing came before";
+    series.delivered();
+    EXPECT_FALSE(series.follow(command(24.1, 1), seconds(11))) << "stronger by more than 1.2";
+    EXPECT_FALSE(series.command().has_value());
+    EXPECT_FALSE(series.follow(command(20, 0.73), seconds(11))) << "sooner by more than 1.34";
+    ASSERT_TRUE(series.follow(command(23.9, 0.76), seconds(11)));
+    EXPECT_EQ(series.command(), command(23.9, 0.76));
+    EXPECT_FALSE(series.due().has_value()) << "the other encoder says when";
+    EXPECT_TRUE(series.follow(command(10, 2), seconds(11.01))) << "a fall is not held back, and 23.9 was not delivered";
+    EXPECT_FALSE(series.follow(command(24.1, 1), seconds(11.02)));
+    EXPECT_TRUE(series.follow(command(40, 0.5), seconds(14.01))) << "twice the longest interval later";
+}
+
+TEST(TrainSeries, AnotherEncodersSlewIsHeldToo) {
+    testing::Test::RecordProperty("hazard", "H6");
+    EncodingProfile profile;
+    profile.amplitudeSlew_V_per_s = 10;
+    TrainSeries series(profile);
+    ASSERT_TRUE(series.follow(command(20, 1), seconds(10)));
+    series.delivered();
+    EXPECT_TRUE(series.follow(command(25, 1), seconds(10.5)));
+    EXPECT_FALSE(series.follow(command(25.1, 1), seconds(10.5)));
+    constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(series.follow(command(kNan, 1), seconds(10.5)));
+    EXPECT_FALSE(series.follow(command(20, kNan), seconds(10.5)));
+}
+
 /// Returns the trains of a loop with a 5 ms period: the first at `before`, and `after` wanted from `step_s` on.
 std::vector<Seen> trainsOf(TrainSeries& series, const Command& before, const Command& after, double step_s,
                            double until_s) {

@@ -4,6 +4,7 @@
 
 #include "core/bench/arming/CommandPreview.h"
 #include "core/devices/Device.h"
+#include "core/devices/EncodingSensor.h"
 #include "core/devices/Stimulator.h"
 
 namespace tacto {
@@ -42,6 +43,39 @@ Result<void> ArmingTerms::checkConfirmed(const ArmRequest& request, const Load& 
         return fail(ErrorCode::NotArmed, "not armed: the operator has not confirmed \"{}\"", shown);
     return fail(ErrorCode::NotArmed, "not armed: the operator confirmed \"{}\", and what would be armed is \"{}\"",
                 request.confirmed, shown);
+}
+
+namespace {
+std::optional<BoardEncoder> encoderOf(const BenchConfig& config) noexcept {
+    const auto* board = dynamic_cast<const EncodingSensor*>(config.devices.sensor.get());
+    return board != nullptr ? board->encoder() : std::nullopt;
+}
+}  // namespace
+
+bool ArmingTerms::boardDrives() const noexcept {
+    const auto encoder = encoderOf(config_);
+    return encoder && encoder->drives;
+}
+
+Result<void> ArmingTerms::checkEncoder(const Load& load) const {
+    if (!boardDrives()) return {};
+    if (config_.mode == OutputMode::Person)
+        return fail(ErrorCode::NotArmed, "not armed: a board that encodes is for loads on a bench, not for a person");
+    if (!config_.devices.stimulator)
+        return fail(ErrorCode::NotArmed, "not armed: a board that encodes drives a stimulator, and none is open");
+    if (!config_.encoderHash)
+        return fail(ErrorCode::NotArmed, "not armed: this program cannot tell whose profile the board has");
+    const auto hash = config_.encoderHash(*config_.devices.sensor, config_.profile, setupFor(load));
+    if (!hash) {
+        return fail(ErrorCode::NotArmed, "not armed: the profile \"{}\" is not for a board that encodes: {}",
+                    config_.profile.name, hash.error().message);
+    }
+    const auto has = encoderOf(config_)->hash;
+    if (*hash == has) return {};
+    return fail(ErrorCode::NotArmed,
+                "not armed: the board encodes by a profile with hash {:08x}, and the profile \"{}\" with this "
+                "stimulator and load has {:08x}; write that one into the board (tactoscope-cli firmware-profile)",
+                has, config_.profile.name, *hash);
 }
 
 ArmCommand ArmingTerms::commandFor(const ArmRequest& request, const Load& load, StopMark asked) const {

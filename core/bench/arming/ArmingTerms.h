@@ -49,6 +49,11 @@ public:
     [[nodiscard]] std::string text(const Load& load) const;
     /// Errors: NotArmed unless the request confirms text(load); for a simulated output the confirmation may be empty.
     [[nodiscard]] Result<void> checkConfirmed(const ArmRequest& request, const Load& load) const;
+    /// True if the trains of the fingertip's board are played while it drives.
+    [[nodiscard]] bool boardDrives() const noexcept;
+    /// Errors: NotArmed where the board drives and this is a person, no stimulator is open, or the board has another
+    /// profile than this bench (BenchConfig::encoderHash).
+    [[nodiscard]] Result<void> checkEncoder(const Load& load) const;
     /// Prepares the second step of arming, for the order given at `asked`.
     [[nodiscard]] ArmCommand commandFor(const ArmRequest& request, const Load& load, StopMark asked) const;
 

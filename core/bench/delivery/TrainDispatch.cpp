@@ -42,7 +42,9 @@ Result<void> TrainDispatch::sendTrain(TrainPlanner& planner, Instant now, StepTe
     auto planned = planner.plan(now, parts_.load.impedance);
     if (!planned) return failure(planned);
     if (!beginDelivery()) return {};
-    parts_.journal.planned(*planned, shown.roughness, shown.pressure);
+    const bool board = shown.boardDrives && shown.driving == DriveSource::Sensor;
+    parts_.journal.planned(*planned, board ? shown.boardRoughness : shown.roughness,
+                           board ? shown.boardPressure : shown.pressure);
     parts_.judge.expect(planned->expected);
     post(std::move(planned->approved), planned->onset, planned->expected, shown);
     return {};

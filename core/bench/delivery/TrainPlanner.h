@@ -6,6 +6,7 @@
 
 #include <optional>
 
+#include "core/devices/EncodingSensor.h"
 #include "core/encoding/Encoder.h"
 #include "core/encoding/Rounding.h"
 #include "core/encoding/StimulatorCalibration.h"
@@ -50,17 +51,23 @@ public:
     /// Sets the wanted values from now on. Without a pressure, the longest interval is used. Errors: as
     /// Encoder::encode(); then nothing is wanted.
     [[nodiscard]] Result<void> want(double roughness, std::optional<double> pressure, Instant now);
+    /// Wants this one train of the fingertip's board, in place of one that still waits, and none of the bench's own.
+    void want(const EncodedTrain& train, Instant due) noexcept;
     /// Wants no train until the next want().
     void wantNothing() noexcept;
 
     /// Returns when the next train is due; nothing while none is wanted.
-    [[nodiscard]] std::optional<Instant> due() const noexcept { return series_.due(); }
+    [[nodiscard]] std::optional<Instant> due() const noexcept {
+        return waiting_ ? std::optional(waiting_->due) : series_.due();
+    }
     /// Returns the command of the next train; nothing while none is wanted.
     [[nodiscard]] const std::optional<Command>& command() const noexcept { return series_.command(); }
 
     /// Has the due train judged, for an onset at max(due, now). Approved or refused, the next follows one interval
-    /// later. Errors: as heldAmplitude(), trainFor(), roundToDevice() and SafetyGate::approve(); LimitExceeded if the
-    /// calibration changes the command by more than 20 % (hazard H1: it may be wrong).
+    /// later, or when the board sends it. Errors: as heldAmplitude(), trainFor(), roundToDevice() and
+    /// SafetyGate::approve(); LimitExceeded if the calibration changes the command by more than 20 % (hazard H1: it may
+    /// be wrong), for a board's train that is not of the profile's form and range or further than 30 % from the bench's
+    /// own for its command (H4), and for a step that the profile forbids (TrainSeries::follow()).
     [[nodiscard]] Result<PlannedTrain> plan(Instant now, std::optional<Ohms> impedance);
 
     /// Has a train at `level` judged for the given onset. Does not change what want() set. Errors: as levelTrain() and
@@ -74,13 +81,21 @@ public:
     [[nodiscard]] Seconds programmed(Seconds wanted) const noexcept { return programmedFor(wanted, calibration_); }
 
 private:
+    struct Waiting {
+        EncodedTrain train;
+        Instant due{0};
+    };
     [[nodiscard]] const Encoder& encoder() const noexcept { return series_.encoder(); }
+    [[nodiscard]] Result<PlannedTrain> planWaiting(const Waiting& waiting, Instant now, std::optional<Ohms> impedance);
+    [[nodiscard]] Result<PlannedTrain> approve(const Result<RoundedTrain>& rounded, const Command& command, Volts held,
+                                               Instant onset);
 
     const SourceTraits source_;
     const KnownLines calibration_;
     SafetyGate& gate_;
     TrainSeries series_;  // the wanted trains, within the limits on a step
     std::optional<Ohms> armed_;
+    std::optional<Waiting> waiting_;  // the board's train
 };
 
 /// Returns the train that is programmed so that `amplitude` comes out into `impedance`: corrected by the calibration,

@@ -12,6 +12,7 @@
 
 #include "core/base/SpscRing.h"
 #include "core/bench/delivery/TrainReport.h"
+#include "core/devices/EncodingSensor.h"
 #include "core/dsp/RoughnessChain.h"
 
 namespace tacto {
@@ -28,7 +29,9 @@ struct TapSample {
 struct BenchTap {
     SpscRing<TapSample> samples{16'384};  ///< about 4 s of a 4 kHz finger
     SpscRing<RoughnessFrame> frames{2048};
-    SpscRing<TrainReport> trains{256};  ///< with every outcome; includes impedance checks
+    SpscRing<TrainReport> trains{256};         ///< with every outcome; includes impedance checks
+    SpscRing<EncodedFrame> boardFrames{2048};  ///< from the board's own encoder, if it encodes
+    SpscRing<EncodedTrain> boardTrains{256};   ///< from there too, also those that are not played
 };
 
 }  // namespace tacto

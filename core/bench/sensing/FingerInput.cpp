@@ -32,11 +32,15 @@ FingerInput::FingerInput(SensorSession& session, std::unique_ptr<RoughnessChain>
         blocks_.back().values.reserve(samples * stream.channels);
     }
     frames_.reserve(kFramesPerStep);
+    encoded_.frames.reserve(SensorSession::kFrames);
+    encoded_.trains.reserve(SensorSession::kTrains);
+    encoded_.silences.reserve(SensorSession::kTrains);
 }
 
 void FingerInput::update() {
     const bool over = session_.finished();  // asked first, so that the remaining samples are collected now
     session_.collect(blocks_);
+    session_.collect(encoded_);
     const auto streams = session_.device().streams();
     for (std::size_t s = 0; s < blocks_.size(); ++s) {
         health_[s].feed(blocks_[s], streams[s].channels);

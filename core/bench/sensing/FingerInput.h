@@ -20,10 +20,14 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<FingerInput>> create(SensorSession& session,
                                                                      const RoughnessSettings& settings);
 
-    /// Takes the samples that arrived. frames() and blocks() stay valid until the next update().
+    /// Takes what arrived. frames(), blocks() and encoded() stay valid until the next update().
     void update();
     [[nodiscard]] const std::vector<RoughnessFrame>& frames() const noexcept { return frames_; }
     [[nodiscard]] std::span<const SampleBlock> blocks() const noexcept { return blocks_; }
+    /// What the board's own encoder said; empty if it does not encode.
+    [[nodiscard]] const Encoded& encoded() const noexcept { return encoded_; }
+    /// True if the board's trains are played while the finger drives, and not the bench's own.
+    [[nodiscard]] bool boardDrives() const noexcept { return session_.encoder() && session_.encoder()->drives; }
     /// The newest frame; before the first, its R is NaN.
     [[nodiscard]] const RoughnessFrame& latest() const noexcept { return latest_; }
 
@@ -50,6 +54,7 @@ private:
     std::vector<Standstill> still_;
     std::vector<SampleBlock> blocks_;
     std::vector<RoughnessFrame> frames_;
+    Encoded encoded_;
     RoughnessFrame latest_;
     double implausible_s_ = -1;  // time stamp of the newest value outside its range
     bool finished_ = false;

@@ -36,6 +36,15 @@ void FingerWatch::read(Instant now, StepTelemetry& shown) noexcept {
             shown.sumV += frame.v;
         }
     }
+    for (const auto& frame : finger_->encoded().frames) {
+        shown.boardRoughness = frame.R;
+        shown.boardPressure = frame.P;
+    }
+    for (const auto& silence : finger_->encoded().silences) {
+        shown.boardSilent = silence.why;
+        journal_.boardSilent(now, silence.why.view());
+    }
+    shown.boardDrives = finger_->boardDrives();
     const auto& newest = finger_->latest();
     shown.roughness = newest.R;
     shown.pressure = newest.P;
@@ -117,6 +126,8 @@ void SampleTaps::push(const FingerInput& finger) noexcept {
     if (display_ != nullptr) {
         pushSamples(finger, *display_);
         for (const auto& frame : finger.frames()) display_->frames.push(frame);
+        for (const auto& frame : finger.encoded().frames) display_->boardFrames.push(frame);
+        for (const auto& train : finger.encoded().trains) display_->boardTrains.push(train);
     }
     if (!listening_.load(std::memory_order_acquire)) return;
     const std::scoped_lock lock(mutex_);

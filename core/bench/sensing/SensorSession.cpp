@@ -23,7 +23,10 @@ Result<std::unique_ptr<SensorSession>> SensorSession::create(TactileSensor& devi
     return std::unique_ptr<SensorSession>(new SensorSession(device));
 }
 
-SensorSession::SensorSession(TactileSensor& device) : device_(device) {
+SensorSession::SensorSession(TactileSensor& device)
+    : device_(device),
+      encoding_(dynamic_cast<const EncodingSensor*>(&device)),
+      encoder_(encoding_ != nullptr ? encoding_->encoder() : std::nullopt) {
     for (const auto& info : device.streams()) {
         const auto capacity = static_cast<std::size_t>(std::max(64.0, info.rate_hz * kRingSeconds));
         Stream stream{info.channels, {}};
@@ -50,7 +53,7 @@ Instant SensorSession::serve(Instant now) noexcept {
     return now + kReadEvery;
 }
 
-/// Puts the samples read into the rings.
+/// Puts what was read into the rings.
 void SensorSession::hand() noexcept {
     for (std::size_t s = 0; s < streams_.size(); ++s) {
         const auto& block = blocks_[s];
@@ -66,6 +69,18 @@ void SensorSession::hand() noexcept {
             },
             streams_[s].ring);
     }
+    if (!encoder_) return;
+    const auto& encoded = encoding_->encoded();
+    for (const auto& frame : encoded.frames) frames_.push(frame);
+    for (const auto& train : encoded.trains) trains_.push(train);
+    for (const auto& silence : encoded.silences) silences_.push(silence);
+}
+
+void SensorSession::collect(Encoded& encoded) noexcept {
+    encoded.clear();
+    while (const auto frame = frames_.pop()) encoded.frames.push_back(*frame);
+    while (const auto train = trains_.pop()) encoded.trains.push_back(*train);
+    while (const auto silence = silences_.pop()) encoded.silences.push_back(*silence);
 }
 
 void SensorSession::fail(std::string_view why) noexcept {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/base/SpscRing.h"
+#include "core/devices/EncodingSensor.h"
 #include "core/devices/TactileSensor.h"
 #include "core/safety/FixedText.h"
 
@@ -24,7 +25,8 @@ namespace tacto {
 
 class SensorSession {
 public:
-    static constexpr std::size_t kMaxChannels = 63;  // the most that the session recorder takes
+    static constexpr std::size_t kMaxChannels = 63;            // the most that the session recorder takes
+    static constexpr std::size_t kFrames = 128, kTrains = 32;  ///< of an encoder, at most, between two collect()
 
     /// Errors: Unsupported for a stream with more than kMaxChannels channels. `device` outlives the session.
     [[nodiscard]] static Result<std::unique_ptr<SensorSession>> create(TactileSensor& device);
@@ -34,6 +36,10 @@ public:
 
     /// Moves the samples since the last call into `blocks`, one per stream, each cleared first.
     void collect(std::span<SampleBlock> blocks) noexcept;
+    /// The encoder of the fingertip's board; nothing if it does not encode. Constant.
+    [[nodiscard]] const std::optional<BoardEncoder>& encoder() const noexcept { return encoder_; }
+    /// Moves what the board's encoder said since the last call into `encoded`, cleared first.
+    void collect(Encoded& encoded) noexcept;
 
     /// Number of samples lost because the loop did not collect for a second.
     [[nodiscard]] std::uint64_t samplesLost() const noexcept;
@@ -71,7 +77,12 @@ private:
     void hand() noexcept;
 
     TactileSensor& device_;
-    std::vector<Stream> streams_;      // constant after construction
+    std::vector<Stream> streams_;  // constant after construction
+    const EncodingSensor* const encoding_;
+    const std::optional<BoardEncoder> encoder_;
+    SpscRing<EncodedFrame> frames_{kFrames};
+    SpscRing<EncodedTrain> trains_{kTrains};
+    SpscRing<EncodedSilence> silences_{kTrains};
     std::vector<SampleBlock> blocks_;  // used by the device's thread
     std::atomic<bool> failed_{false};
     std::atomic<std::uint64_t> failures_{0};

@@ -1,0 +1,438 @@
+// A board that encodes: the bench plays its trains and no others, each once, on time and through the gate, and arms
+// only for a board with the bench's own profile.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <limits>
+
+#include "core/base/Random.h"
+#include "core/devices/EncodingSensor.h"
+#include "tests/bench/BenchFixture.h"
+#include "tests/bench/FakeStimulator.h"
+#include "tests/bench/PersonFixture.h"
+#include "tests/bench/TapedFinger.h"
+
+namespace tacto::test {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// A finger whose board says what the test says.
+class EncodingFinger final : public TactileSensor, public EncodingSensor {
+public:
+    EncodingFinger(const Clock& clock, BoardEncoder encoder) : finger_(clock), encoder_(encoder) {}
+    const DeviceIdentity& identity() const noexcept override { return finger_.identity(); }
+    std::span<const StreamInfo> streams() const noexcept override { return finger_.streams(); }
+    Result<void> read(std::span<SampleBlock> blocks) override {
+        encoded_ = std::exchange(next, {});
+        return silent ? Result<void>{} : finger_.read(blocks);
+    }
+    std::optional<BoardEncoder> encoder() const noexcept override { return encoder_; }
+    const Encoded& encoded() const noexcept override { return encoded_; }
+
+    Encoded next;         ///< comes with the next read()
+    bool silent = false;  ///< true: no samples come any more
+
+private:
+    TapedFinger finger_;
+    const BoardEncoder encoder_;
+    Encoded encoded_;
+};
+
+/// A control loop that is armed and driven by the finger, on a virtual clock in steps of a millisecond.
+struct BoardRig {
+    explicit BoardRig(bool drives = true, const Profile& chosen = {}, const SourceTraits& source = voltageSource())
+        : profile(chosen), finger(clock, {drives, 0x1234}) {
+        device.traits_ = source;
+        const ControlLoop::Parts parts{clock,       gate,    interlock, heartbeat, OutputMode::BenchLoad,
+                                       &stimulator, nullptr, 0,         {},        &tap};
+        loop = std::make_unique<ControlLoop>(parts, FingerInput::create(*sensor, profile.roughness).value(),
+                                             std::make_unique<TrainPlanner>(profile.encoding, source, gate));
+        armFake(*loop, interlock, device, clock);
+        loop->drive({DriveSource::Sensor, 0, 0});
+        pass(1);  // the finger touches from 0.5 s on
+        EXPECT_EQ(interlock.state(), drives ? InterlockState::Armed : InterlockState::Delivering);
+        static_cast<void>(played());
+    }
+    static SourceTraits voltageSource() {
+        SourceTraits traits;
+        traits.amplitudeMax = 60;
+        traits.compliance = Volts(60);
+        return traits;
+    }
+    void pass(double seconds) {
+        for (const Instant until = clock.now() + toInstant(seconds); clock.now() < until;) {
+            clock.advanceTo(clock.now() + std::chrono::milliseconds(1));
+            const auto ms = clock.now() / std::chrono::milliseconds(1);
+            if (ms % 2 == 0) sensor->serve(clock.now());
+            stimulator.serve(clock.now());
+            if (ms % 5 == 0) loop->step(clock.now());
+        }
+    }
+    /// A train of the profile's form with its onset `in_s` from now.
+    EncodedTrain train(double volts, double interval_s, double in_s = 0) const {
+        return {toSeconds(clock.now()) + in_s, Seconds(interval_s), Volts(volts), volts, profile.encoding.train};
+    }
+    void send(const EncodedTrain& train) { finger.next.trains.push_back(train); }
+    /// The trains that were delivered since the last call.
+    std::vector<TrainReport> played() {
+        std::vector<TrainReport> all;
+        while (const auto report = tap.trains.pop())
+            if (!report->isCheck && report->outcome == TrainOutcome::Delivered) all.push_back(*report);
+        return all;
+    }
+    /// Sends one train and returns why it is refused; empty if it is played.
+    std::string refusalOf(const EncodedTrain& train) {
+        const auto before = loop->refusals();
+        send(train);
+        pass(0.2);
+        const auto delivered = played();
+        if (loop->refusals() == before) return delivered.size() == 1 ? "" : "nothing came";
+        EXPECT_TRUE(delivered.empty());
+        return std::string(loop->telemetry().lastRefusal.view());
+    }
+
+    VirtualClock clock;
+    SafetyGate gate{clock};
+    Interlock interlock;
+    Heartbeat heartbeat;
+    FakeStimulator device{clock};
+    StimulatorSession stimulator{device, gate, heartbeat, clock, {}};
+    Profile profile;
+    EncodingFinger finger;
+    std::unique_ptr<SensorSession> sensor = SensorSession::create(finger).value();
+    BenchTap tap;
+    std::unique_ptr<ControlLoop> loop;
+};
+
+TEST(BoardEncodes, ItsTrainsArePlayedOnceWithTheirAmplitudesAndIntervals) {
+    RecordProperty("hazard", "H4");
+    BoardRig rig;
+    Random random(3, "trains");
+    std::vector<EncodedTrain> sent;
+    for (int i = 0; i < 40; ++i) {
+        const auto train = rig.train(10 + 30 * random.uniform(), 0.5 + 1.5 * random.uniform(), 0.004);
+        sent.push_back(train);
+        rig.send(train);
+        rig.pass(train.interval.count());
+    }
+    const auto played = rig.played();
+    ASSERT_EQ(played.size(), sent.size());
+    for (std::size_t i = 0; i < sent.size(); ++i) {
+        EXPECT_DOUBLE_EQ(played[i].amplitude, sent[i].amplitude);
+        EXPECT_DOUBLE_EQ(played[i].interval_s, sent[i].interval.count());
+        // 10 ms after the board's onset, at the next millisecond of this clock.
+        EXPECT_NEAR(toSeconds(played[i].onset) - sent[i].onset_s, 0.010, 0.0011) << i;
+    }
+    EXPECT_EQ(rig.loop->telemetry().trainsSkipped, 0U);
+}
+
+TEST(BoardEncodes, NothingIsPlayedThatItDoesNotSend) {
+    RecordProperty("hazard", "H7");
+    BoardRig rig;
+    rig.pass(5);
+    EXPECT_TRUE(rig.played().empty()) << "though the finger slides, and the bench's own encoder would play";
+    EXPECT_GT(rig.loop->telemetry().roughness, 0);
+    rig.send(rig.train(20, 0.5));
+    rig.pass(5);
+    EXPECT_EQ(rig.played().size(), 1U) << "its silence is silence";
+    EXPECT_TRUE(std::isnan(rig.loop->telemetry().amplitude_v));
+}
+
+TEST(BoardEncodes, ShownTrainsAreNotPlayedButTheBenchsOwn) {
+    BoardRig rig(false);
+    const auto before = rig.loop->telemetry().trainsDelivered;
+    EncodedTrain odd = rig.train(33.25, 0.5);
+    for (int i = 0; i < 20; ++i) {
+        odd.onset_s = toSeconds(rig.clock.now());
+        rig.send(odd);
+        rig.pass(0.25);
+    }
+    EXPECT_GT(rig.loop->telemetry().trainsDelivered, before);
+    for (const auto& report : rig.played()) EXPECT_NE(report.amplitude, odd.amplitude);
+    std::size_t shown = 0;
+    while (rig.tap.boardTrains.pop()) ++shown;
+    EXPECT_EQ(shown, 20U);
+}
+
+TEST(BoardEncodes, ATrainThatIsLateOrAheadIsNotPlayed) {
+    RecordProperty("hazard", "H7");
+    for (const double in_s : {-0.5, -0.11, 0.11, 10.0, -1e9, 1e9, kNan}) {
+        BoardRig rig;
+        rig.send(rig.train(20, 0.5, in_s));
+        rig.pass(1);
+        EXPECT_TRUE(rig.played().empty()) << in_s;
+        EXPECT_EQ(rig.loop->telemetry().trainsSkipped, 1U) << in_s;
+    }
+    BoardRig rig;
+    rig.send(rig.train(20, 0.5, -0.08));
+    rig.pass(1);
+    EXPECT_EQ(rig.played().size(), 1U);
+}
+
+TEST(BoardEncodes, OfTwoThatWaitTheNewerIsPlayed) {
+    RecordProperty("hazard", "H7");
+    BoardRig rig;
+    rig.send(rig.train(30, 0.5));
+    rig.send(rig.train(20, 0.5, 0.001));
+    rig.pass(1);
+    const auto played = rig.played();
+    ASSERT_EQ(played.size(), 1U);
+    EXPECT_EQ(played[0].amplitude, 20);
+    EXPECT_EQ(rig.loop->telemetry().trainsSkipped, 1U);
+}
+
+TEST(BoardEncodes, ASilenceTakesBackATrainThatWaits) {
+    RecordProperty("hazard", "H7");
+    BoardRig rig;
+    rig.send(rig.train(30, 0.5, 0.06));
+    rig.pass(0.03);
+    rig.finger.next.silences.push_back({toSeconds(rig.clock.now()), "data that are older than 100 ms"});
+    rig.pass(1);
+    EXPECT_TRUE(rig.played().empty());
+    EXPECT_EQ(rig.loop->telemetry().boardSilent.view(), "data that are older than 100 ms");
+}
+
+TEST(BoardEncodes, StaleSamplesEndItsOutputWhateverItSays) {
+    RecordProperty("hazard", "H7");
+    BoardRig rig;
+    rig.finger.silent = true;
+    rig.pass(0.3);
+    for (int i = 0; i < 5; ++i) {
+        rig.send(rig.train(20, 0.5));
+        rig.pass(0.5);
+    }
+    EXPECT_TRUE(rig.played().empty());
+}
+
+TEST(BoardEncodes, NothingComesAfterAStopOrWhilePausedOrDrivenByHand) {
+    RecordProperty("hazard", "H2");
+    BoardRig rig;
+    rig.loop->pauseOutput(true);
+    rig.send(rig.train(20, 0.5));
+    rig.pass(0.5);
+    EXPECT_TRUE(rig.played().empty());
+    rig.loop->pauseOutput(false);
+    rig.pass(0.5);
+    EXPECT_TRUE(rig.played().empty()) << "the train of the pause is gone";
+    rig.loop->drive({DriveSource::Manual, 0, 1});
+    rig.send(rig.train(20, 0.5));
+    rig.pass(0.4);
+    for (const auto& report : rig.played()) EXPECT_EQ(report.amplitude, 10);
+    rig.loop->drive({DriveSource::Sensor, 0, 0});
+    rig.send(rig.train(20, 0.5, 0.05));
+    rig.pass(0.02);
+    rig.interlock.disarm("stop");
+    rig.gate.latchStop();
+    rig.pass(1);
+    EXPECT_TRUE(rig.played().empty());
+    rig.send(rig.train(20, 0.5));
+    rig.pass(1);
+    EXPECT_TRUE(rig.played().empty());
+}
+
+TEST(BoardEncodes, ATrainOfAnotherFormOrRangeThanTheProfilesIsRefused) {
+    RecordProperty("hazard", "H4");
+    BoardRig rig;
+    const auto with = [&](auto change) {
+        auto train = rig.train(20, 0.5);
+        change(train);
+        return rig.refusalOf(train);
+    };
+    using T = EncodedTrain;
+    EXPECT_EQ(with([](T&) {}), "");
+    EXPECT_EQ(with([](T& t) { t.form.phaseWidth = Micros(static_cast<double>(200.0F)); }), "");
+    EXPECT_THAT(with([](T& t) { t.form.phaseWidth = Micros(201); }), HasSubstr("a phase width in us of 201"));
+    EXPECT_THAT(with([](T& t) { t.form.interPhaseGap = Micros(0); }), HasSubstr("a gap in us of 0"));
+    EXPECT_THAT(with([](T& t) { t.form.rechargeRatio = 5; }), HasSubstr("a recharge ratio of 5"));
+    EXPECT_THAT(with([](T& t) { ++t.form.pulses; }), HasSubstr("a number of pulses of"));
+    EXPECT_THAT(with([](T& t) { t.form.rate = Hertz(99); }), HasSubstr("a pulse rate in Hz of 99"));
+    EXPECT_THAT(with([](T& t) { t.form.shape = PulseShape::Monophasic; }), HasSubstr("another shape or polarity"));
+    EXPECT_THAT(with([](T& t) { t.form.polarity = Polarity::Negative; }), HasSubstr("another shape or polarity"));
+    EXPECT_THAT(with([](T& t) { t.command = Volts(9.9); }), HasSubstr("commands 9.9 V; 10 to 40 V"));
+    EXPECT_THAT(with([](T& t) { t.command = Volts(41); }), HasSubstr("commands 41 V"));
+    EXPECT_THAT(with([](T& t) { t.command = Volts(kNan); }), HasSubstr("commands nan V"));
+    EXPECT_THAT(with([](T& t) { t.interval = Seconds(0.49); }), HasSubstr("an interval of 0.49 s; 0.5 to 2 s"));
+    EXPECT_THAT(with([](T& t) { t.interval = Seconds(kNan); }), HasSubstr("an interval of nan s"));
+    EXPECT_THAT(with([](T& t) { t.amplitude = 26.1; }), HasSubstr("makes 26.1 V of 20 V, and the bench 20"));
+    EXPECT_THAT(with([](T& t) { t.amplitude = 13.9; }), HasSubstr("within 30 % is expected"));
+    EXPECT_THAT(with([](T& t) { t.amplitude = kNan; }), HasSubstr("within 30 % is expected"));
+}
+
+TEST(BoardEncodes, AmplitudesInSinglePrecisionAreThoseOfTheDevicesStep) {
+    RecordProperty("hazard", "H4");
+    SourceTraits source = BoardRig::voltageSource();
+    source.amplitudeStep = 0.1;
+    BoardRig rig(true, {}, source);
+    for (const int steps : {101, 167, 205, 333, 399}) {
+        auto train = rig.train(0.1 * steps, 0.5);
+        train.command = Volts(static_cast<double>(0.1F * static_cast<float>(steps)));
+        train.amplitude = train.command.value();
+        rig.send(train);
+        rig.pass(0.5);
+        const auto played = rig.played();
+        ASSERT_EQ(played.size(), 1U) << rig.loop->telemetry().lastRefusal.view();
+        EXPECT_NEAR(played[0].amplitude, 0.1 * steps, 1e-9);
+    }
+    EXPECT_THAT(rig.refusalOf(rig.train(20.05, 0.5)), HasSubstr("multiples of the device's step, 0.1, are accepted"));
+}
+
+TEST(BoardEncodes, VoltsThatReachACurrentSourceAsMilliampsAreRefused) {
+    RecordProperty("hazard", "H4");
+    SourceTraits source;
+    source.drive = Drive::Current;
+    source.amplitudeMax = 100;
+    source.compliance = Volts(300);
+    BoardRig rig(true, {}, source);
+    rig.device.impedance = Ohms(1150);
+    auto train = rig.train(20, 0.5);
+    EXPECT_EQ(rig.refusalOf(train), "") << "20 mA of 20 V, as the declared kiloohm says";
+    train = rig.train(20, 0.5);
+    train.amplitude = 40;
+    EXPECT_THAT(rig.refusalOf(train), HasSubstr("makes 40 mA of 20 V"));
+}
+
+TEST(BoardEncodes, AStepThatTheProfileForbidsIsRefusedAfterATrainThatDidNotCome) {
+    RecordProperty("hazard", "H6");
+    Profile profile;
+    profile.encoding.amplitudeRatioPerTrain = 1.2;
+    BoardRig rig(true, profile);
+    EXPECT_EQ(rig.refusalOf(rig.train(15, 0.5)), "");
+    rig.pass(0.3);
+    // 18 V was lost on the way.
+    EXPECT_THAT(rig.refusalOf(rig.train(21.6, 0.5)), HasSubstr("a larger step from the last train"));
+    EXPECT_EQ(rig.refusalOf(rig.train(10, 0.5)), "") << "a fall";
+    EXPECT_EQ(rig.refusalOf(rig.train(12, 0.5)), "");
+    EXPECT_THAT(rig.refusalOf(rig.train(40, 0.5)), HasSubstr("a larger step from the last train"));
+    rig.pass(4);
+    EXPECT_EQ(rig.refusalOf(rig.train(40, 0.5)), "") << "a new series begins";
+}
+
+TEST(BoardEncodes, WhateverItSendsWhatIsPlayedIsOneOfItsTrainsInOrderAndWithinTheProfile) {
+    RecordProperty("hazard", "H1");
+    Random random(11, "board");
+    BoardRig rig;
+    std::vector<EncodedTrain> sent;
+    std::vector<TrainReport> played;
+    const auto odd = [&](double& value) {
+        const double choices[] = {kNan, 0, -1, 1e30, std::numeric_limits<double>::infinity(), value * 3, value};
+        value = choices[random.below(std::size(choices))];
+    };
+    for (int i = 0; i < 3000; ++i) {
+        double volts = 5 + 40 * random.uniform(), interval = 0.3 + 2 * random.uniform();
+        double in_s = 0.25 * random.uniform() - 0.15, amplitude = volts * (0.6 + 0.8 * random.uniform());
+        const auto spoilt = random.below(12);
+        if (spoilt == 0) odd(volts);
+        if (spoilt == 1) odd(interval);
+        if (spoilt == 2) odd(in_s);
+        if (spoilt == 3) odd(amplitude);
+        auto train = rig.train(volts, interval, in_s);
+        train.amplitude = amplitude;
+        if (spoilt == 4) train.form.pulses += 1;
+        sent.push_back(train);
+        rig.send(train);
+        if (random.below(20) == 0)
+            rig.finger.next.silences.push_back({toSeconds(rig.clock.now()), random.below(2) == 0 ? "a stop" : ""});
+        rig.pass(0.002 * static_cast<double>(random.below(60)));
+        for (const auto& report : rig.played()) played.push_back(report);
+    }
+    std::size_t next = 0;
+    for (const auto& report : played) {
+        while (next < sent.size() && sent[next].amplitude != report.amplitude) ++next;
+        ASSERT_LT(next, sent.size()) << report.amplitude << " V was not sent, or not after the one before";
+        const auto& train = sent[next++];
+        EXPECT_EQ(report.interval_s, train.interval.count());
+        EXPECT_LE(std::abs(toSeconds(report.onset) - train.onset_s), 0.12);
+        EXPECT_TRUE(train.command >= Volts(10) && train.command <= Volts(40));
+        EXPECT_TRUE(train.interval >= Seconds(0.5) && train.interval <= Seconds(2));
+        EXPECT_NEAR(report.amplitude / train.command.value(), 1, 0.3);
+    }
+    EXPECT_GT(played.size(), 300U);
+    EXPECT_GT(rig.loop->telemetry().trainsSkipped, 300U);
+    EXPECT_GT(rig.loop->refusals(), 300U);
+}
+
+class BoardEncodesBench : public BenchFixture {
+protected:
+    void openWith(BoardEncoder encoder) {
+        wrapSensor_ = [this, encoder](std::unique_ptr<TactileSensor>) {
+            auto made = std::make_unique<EncodingFinger>(*clock_, encoder);
+            finger_ = made.get();
+            return made;
+        };
+        open({}, {Role::Stimulator, Role::Sensor});
+    }
+
+    EncodingFinger* finger_ = nullptr;
+};
+
+TEST_F(BoardEncodesBench, IsArmedOnlyWithTheBenchsOwnProfileInTheBoard) {
+    RecordProperty("hazard", "H4");
+    std::vector<double> loads;
+    encoderHash_ = [&](const TactileSensor&, const Profile& profile, const GateSetup& setup) -> Result<std::uint32_t> {
+        loads.push_back(setup.load.nominal.series.value());
+        if (profile.encoding.hold != Hold::Voltage) return fail(ErrorCode::Unsupported, "it holds the charge");
+        return 0xABCDU;
+    };
+    openWith({true, 0x1234});
+    EXPECT_THAT(arm("2 kohm"), refused(ErrorCode::NotArmed, HasSubstr("with hash 00001234, and the profile \"default\" "
+                                                                      "with this stimulator and load has 0000abcd")));
+    EXPECT_EQ(loads, (std::vector<double>{2000}));
+    EXPECT_EQ(state(), InterlockState::Disarmed);
+    openWith({false, 0x1234});
+    EXPECT_TRUE(arm().has_value()) << "its trains are only shown";
+    openWith({true, 0xABCD});
+    ASSERT_TRUE(arm().has_value());
+    auto changed = profile_;
+    changed.roughness.spectralWeight = 0.25;
+    EXPECT_THAT(bench_->setProfile(changed), refused(ErrorCode::NotArmed, HasSubstr("the fingertip's board encodes")));
+    bench_->disarm();
+    EXPECT_TRUE(bench_->setProfile(changed).has_value());
+    changed.encoding.hold = Hold::Charge;
+    EXPECT_TRUE(bench_->setProfile(changed).has_value());
+    EXPECT_THAT(arm(), refusedSaying("is not for a board that encodes: it holds the charge"));
+}
+
+TEST_F(BoardEncodesBench, IsNotArmedWhereNobodyKnowsItsProfile) {
+    RecordProperty("hazard", "H4");
+    openWith({true, 0});
+    EXPECT_THAT(arm(), refused(ErrorCode::NotArmed, HasSubstr("cannot tell whose profile the board has")));
+}
+
+TEST_F(BoardEncodesBench, TheGateRefusesItsTrainAsAnyOther) {
+    RecordProperty("hazard", "H1");
+    encoderHash_ = [](const TactileSensor&, const Profile&, const GateSetup&) -> Result<std::uint32_t> { return 1U; };
+    profile_.ceilings = {{Quantity::PeakCurrent, 25}};
+    openWith({true, 1});
+    ASSERT_TRUE(arm().has_value());
+    ASSERT_TRUE(bench_->drive(DriveSource::Sensor).has_value());
+    ASSERT_TRUE(bench_->wait(Seconds(1)).has_value());
+    const auto send = [&](double volts) {
+        finger_->next.trains.push_back(
+            {toSeconds(clock_->now()), Seconds(1), Volts(volts), volts, profile_.encoding.train});
+        return bench_->wait(Seconds(1)).has_value();
+    };
+    ASSERT_TRUE(send(15));
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, 1U);
+    EXPECT_EQ(bench_->telemetry().trainsRefused, 0U);
+    ASSERT_TRUE(send(30));
+    EXPECT_EQ(bench_->telemetry().trainsDelivered, 1U);
+    EXPECT_EQ(bench_->telemetry().trainsRefused, 1U);
+    EXPECT_THAT(std::string(bench_->telemetry().lastRefusal.view()), HasSubstr("peak current"));
+}
+
+class PersonAtABoard : public PersonFixture {};
+
+TEST_F(PersonAtABoard, IsNotStimulatedByItsTrains) {
+    RecordProperty("hazard", "H1");
+    encoderHash_ = [](const TactileSensor&, const Profile&, const GateSetup&) -> Result<std::uint32_t> { return 1U; };
+    wrapSensor_ = [this](std::unique_ptr<TactileSensor>) {
+        return std::make_unique<EncodingFinger>(*clock_, BoardEncoder{true, 1});
+    };
+    open({}, {Role::Stimulator, Role::Sensor});
+    EXPECT_THAT(arm(), refused(ErrorCode::NotArmed, HasSubstr("for loads on a bench, not for a person")));
+}
+
+}  // namespace
+}  // namespace tacto::test
