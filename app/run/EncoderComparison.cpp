@@ -6,6 +6,8 @@
 
 #include "core/bench/delivery/TrainPlanner.h"
 #include "core/bench/sensing/FingerInput.h"
+#include "core/devices/EncoderLoader.h"
+#include "core/devices/EncodingSensor.h"
 #include "core/dsp/SampleHistory.h"
 
 namespace tacto {
@@ -13,7 +15,9 @@ namespace tacto {
 namespace {
 
 constexpr double kTrainsApart_s = 0.025;  // half the shortest interval of the board
-constexpr double kMaxR = 0.01, kMaxP = 0.002, kMaxAmplitude = 0.005;
+constexpr double kBoardFrames_s = 4e-3;   // through its clock and its line
+constexpr double kBoardAmplitude = 0.05;
+constexpr double kMaxR = 0.01, kMaxP = 0.002;
 
 te_stream streamOf(StreamKind kind) noexcept {
     return kind == StreamKind::Acceleration ? TE_ACCELERATION : kind == StreamKind::Force ? TE_FORCE : TE_TAXEL_ARRAY;
@@ -35,9 +39,10 @@ double level(const PulseTrain& train) {
     return std::visit([](auto amplitude) { return amplitude.value(); }, train.amplitude);
 }
 
-class BoardSide {
+/// The C99 code, here.
+class OwnEncoder {
 public:
-    explicit BoardSide(const te_profile& profile) : state_(std::make_unique<te_state>()) {
+    explicit OwnEncoder(const te_profile& profile) : state_(std::make_unique<te_state>()) {
         (void)te_init(state_.get(), &profile);  // encoderProfile() has seen that it is accepted
         te_rested(state_.get());
     }
@@ -75,6 +80,14 @@ private:
     EncoderSide made_;
 };
 
+/// Leaves out what the other side may still be about to send.
+EncoderSide upTo(const EncoderSide& side, double end_s) {
+    EncoderSide kept = side;
+    std::erase_if(kept.frames, [=](const auto& frame) { return frame.t_s > end_s; });
+    std::erase_if(kept.trains, [=](const auto& train) { return train.onset_s > end_s; });
+    return kept;
+}
+
 void note(EncoderAgreement& found, std::string sentence) {
     found.refusedAlike = false;
     if (found.unlike.empty()) found.unlike = std::move(sentence);
@@ -111,9 +124,9 @@ void compareFrames(const RoughnessFrame& bench, const RoughnessFrame& board, Enc
 
 }  // namespace
 
-bool EncoderAgreement::holds(double sample_s) const noexcept {
-    return refusedAlike && maxR <= kMaxR && maxP <= kMaxP && maxOnset_s <= sample_s &&
-           (maxAmplitude <= kMaxAmplitude || (maxAmplitudeSteps > 0 && maxAmplitudeSteps <= 1 + 1e-6));
+bool EncoderAgreement::holds() const noexcept {
+    return refusedAlike && maxR <= kMaxR && maxP <= kMaxP && maxOnset_s <= acceptedOnset_s &&
+           (maxAmplitude <= acceptedAmplitude || (maxAmplitudeSteps > 0 && maxAmplitudeSteps <= 1 + 1e-6));
 }
 
 EncoderAgreement agreementOf(const EncoderSide& bench, const EncoderSide& board, double amplitudeStep, double apart_s) {
@@ -160,7 +173,7 @@ struct EncoderComparison::State {
           clock(at),
           gate(at),
           planner(encoding, out.source, gate),
-          board(profile),
+          own(profile),
           load(out.load.nominal.series),
           step(out.source.amplitudeStep) {}
 
@@ -178,6 +191,13 @@ struct EncoderComparison::State {
             bench.refused_s.push_back(toSeconds(now));
     }
 
+    /// Takes what the board sent with the last read.
+    void take(const Encoded& from) {
+        for (const auto& f : from.frames)
+            sent.frames.push_back({f.t_s, f.contact, f.sliding, f.h, f.v, f.R, f.pressure_pa, f.P});
+        for (const auto& train : from.trains) sent.trains.push_back({train.onset_s, train.amplitude});
+    }
+
     Undeclared sensor;
     const Clock& clock;
     SafetyGate gate;
@@ -185,7 +205,9 @@ struct EncoderComparison::State {
     std::unique_ptr<SensorSession> session;
     std::unique_ptr<FingerInput> finger;
     EncoderSide bench;
-    BoardSide board;
+    OwnEncoder own;
+    EncodingSensor* encoding = nullptr;  // a board that encodes
+    EncoderSide sent;                    // by it
     const Ohms load;
     const double step;
 };
@@ -200,7 +222,19 @@ Result<std::unique_ptr<EncoderComparison>> EncoderComparison::create(TactileSens
     const auto encoder =
         encoderProfile(sensor.streams(), profile.roughness, profile.encoding, output, sensor.identity().serial);
     if (!encoder) return failure(encoder);
+    auto* const encoding = dynamic_cast<EncodingSensor*>(&sensor);
+    if (auto* loader = dynamic_cast<EncoderLoader*>(&sensor)) {
+        if (const auto loaded = loader->load(profileBytes(*encoder)); !loaded) return failure(loaded);
+    }
     auto state = std::make_unique<State>(sensor, clock, output, profile.encoding, *encoder);
+    if (encoding != nullptr && encoding->encoder()) {
+        if (encoding->encoder()->hash != encoder->hash) {
+            return fail(ErrorCode::Unsupported,
+                        "the profile in the encoder of {} has the hash {:08x}; {:08x}, of \"{}\", was expected",
+                        sensor.identity().name, encoding->encoder()->hash, encoder->hash, profile.name);
+        }
+        state->encoding = encoding;
+    }
     GateSetup setup;
     setup.source = output.source;
     setup.load = output.load;
@@ -225,21 +259,38 @@ Result<void> EncoderComparison::turn() {
     if (s.session->failed()) return fail(ErrorCode::Device, "{}", s.session->error().view());
     s.finger->update();
     s.bench.frames.insert(s.bench.frames.end(), s.finger->frames().begin(), s.finger->frames().end());
-    s.board.feed(s.sensor.streams(), s.finger->blocks());
     s.driveBench(now);
-    s.board.drive(now);
+    if (s.encoding != nullptr) {
+        s.take(s.encoding->encoded());
+        return {};
+    }
+    s.own.feed(s.sensor.streams(), s.finger->blocks());
+    s.own.drive(now);
     return {};
 }
 
 const EncoderSide& EncoderComparison::bench() const noexcept { return state_->bench; }
-const EncoderSide& EncoderComparison::board() const noexcept { return state_->board.made(); }
+const EncoderSide& EncoderComparison::board() const noexcept {
+    return state_->encoding != nullptr ? state_->sent : state_->own.made();
+}
 
-EncoderAgreement EncoderComparison::agreement() const { return agreementOf(bench(), board(), state_->step); }
-
-double EncoderComparison::sample_s() const noexcept {
-    for (const auto& info : state_->sensor.streams())
-        if (info.kind == StreamKind::Acceleration) return 1 / info.rate_hz;
-    return 1e-3;
+EncoderAgreement EncoderComparison::agreement() const {
+    EncoderAgreement found;
+    if (state_->encoding == nullptr) {
+        found = agreementOf(bench(), board(), state_->step);
+        found.acceptedOnset_s = 1e-3;
+        for (const auto& info : state_->sensor.streams())
+            if (info.kind == StreamKind::Acceleration) found.acceptedOnset_s = 1 / info.rate_hz;
+        return found;
+    }
+    if (bench().frames.empty() || board().frames.empty()) return found;
+    const double end_s = std::min(bench().frames.back().t_s, board().frames.back().t_s) + kBoardFrames_s;
+    EncoderSide ours = upTo(bench(), end_s);
+    ours.refused_s.clear();  // a board sends no train that it refuses
+    found = agreementOf(ours, upTo(board(), end_s), state_->step, kBoardFrames_s);
+    found.acceptedOnset_s = kTrainsApart_s;
+    found.acceptedAmplitude = kBoardAmplitude;
+    return found;
 }
 
 }  // namespace tacto

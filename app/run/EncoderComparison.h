@@ -2,6 +2,7 @@
 // (resources/firmware/tactile_encoder), turn by turn as the control loop takes them, and how far apart the results are.
 //
 // The bench's side is the bench's own code up to the gate: FingerInput, TrainPlanner, SafetyGate. Nothing is delivered.
+// The board's side is what a board that encodes sends, else the encoder's C99 code here.
 // A board knows no declared intervals of rest or contact, so neither side is told them.
 //
 // Thread-safety: none; one owner.
@@ -42,8 +43,9 @@ struct EncoderAgreement {
     bool refusedAlike = true;
     std::string unlike;  ///< the first thing that one side alone has, in a sentence; empty if there is none
 
-    /// |dR| at most 0.01, |dP| at most 0.002, onsets within `sample_s`, amplitudes within 0.5 % or one step.
-    [[nodiscard]] bool holds(double sample_s) const noexcept;
+    double acceptedOnset_s = 0, acceptedAmplitude = 0.005;  ///< what may lie between trains
+    /// |dR| at most 0.01, |dP| at most 0.002, onsets and amplitudes as accepted, amplitudes also within one step.
+    [[nodiscard]] bool holds() const noexcept;
 };
 
 /// Compares frames whose stamps differ by at most `apart_s`, and trains whose onsets differ by at most 25 ms.
@@ -57,8 +59,9 @@ class EncoderComparison {
 public:
     static constexpr Instant kTurn = ControlLoop::kPeriod;
 
-    /// `sensor` and `clock` outlive the comparison. Errors: as encoderProfile(), SafetyGate::configure() and
-    /// RoughnessChain::create(); Unsupported for a stream of more channels than a session takes.
+    /// `sensor` and `clock` outlive the comparison; a simulated board gets the profile. Errors: as encoderProfile(),
+    /// SafetyGate::configure() and RoughnessChain::create(); Unsupported for a stream of more channels than a session
+    /// takes, and for a board with another profile in its encoder.
     [[nodiscard]] static Result<std::unique_ptr<EncoderComparison>> create(TactileSensor& sensor,
                                                                            const Profile& profile,
                                                                            const EncoderOutput& output,
@@ -71,9 +74,9 @@ public:
 
     [[nodiscard]] const EncoderSide& bench() const noexcept;
     [[nodiscard]] const EncoderSide& board() const noexcept;
+    /// Onsets may differ by a sample of acceleration, or 1 ms, amplitudes by 0.5 %. With a board, whose turns are not
+    /// the bench's and whose samples come in blocks, so that a train may go by the frame before: by 25 ms and 5 %.
     [[nodiscard]] EncoderAgreement agreement() const;
-    /// The time between two samples of acceleration, or 1 ms: how far apart onsets may be.
-    [[nodiscard]] double sample_s() const noexcept;
 
 private:
     struct State;
