@@ -47,6 +47,17 @@ protected:
         write("due", QString::fromStdString(dateText(daysFromNow(due))));
         write("gain-u", "0.5");
     }
+    /// Reads a digital certificate by the file chooser.
+    void read(const DccText& dcc) {
+        const ScratchDir folder;
+        const auto file = folder.write("certificate.xml", dcc.text());
+        click(*dialog->findChild<QPushButton*>("readCertificate"));
+        auto* chooser = dialog->findChild<QFileDialog*>("fileChooser");
+        ASSERT_NE(chooser, nullptr);
+        chooser->selectFile(QString::fromStdString(file.string()));
+        QMetaObject::invokeMethod(chooser, "accept");
+        delete chooser;
+    }
     [[nodiscard]] QPushButton& enter() { return *dialog->findChild<QPushButton*>("enterCertificate"); }
     [[nodiscard]] QTableWidget& table() { return *dialog->findChild<QTableWidget*>("certificates"); }
     [[nodiscard]] std::string says() { return dialog->findChild<QLabel*>("certificateSays")->text().toStdString(); }
@@ -195,16 +206,6 @@ TEST_F(CertificateWindow, WithdrawsAfterASecondPress) {
 
 TEST_F(CertificateWindow, FillsItselfFromADigitalOne) {
     RecordProperty("hazard", "H9");
-    const ScratchDir folder;
-    const auto read = [&](const DccText& dcc) {
-        const auto file = folder.write("scope.xml", dcc.text());
-        click(*dialog->findChild<QPushButton*>("readCertificate"));
-        auto* chooser = dialog->findChild<QFileDialog*>("fileChooser");
-        ASSERT_NE(chooser, nullptr);
-        chooser->selectFile(QString::fromStdString(file.string()));
-        QMetaObject::invokeMethod(chooser, "accept");
-        delete chooser;
-    };
     showDialog();
     DccText dcc;
     dcc.due = "";
@@ -228,16 +229,6 @@ TEST_F(CertificateWindow, FillsItselfFromADigitalOne) {
 }
 
 TEST_F(CertificateWindow, AddsAShuntAndBeginsAnewWithAnotherOscilloscope) {
-    const ScratchDir folder;
-    const auto read = [&](const DccText& dcc) {
-        const auto file = folder.write("file.xml", dcc.text());
-        click(*dialog->findChild<QPushButton*>("readCertificate"));
-        auto* chooser = dialog->findChild<QFileDialog*>("fileChooser");
-        ASSERT_NE(chooser, nullptr);
-        chooser->selectFile(QString::fromStdString(file.string()));
-        QMetaObject::invokeMethod(chooser, "accept");
-        delete chooser;
-    };
     const auto shown = [&](const char* field) { return dialog->findChild<QLineEdit*>(field)->text().toStdString(); };
     showDialog();
     DccText scope, shunt, other;
