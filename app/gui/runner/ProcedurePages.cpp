@@ -136,11 +136,11 @@ QWidget* ProcedurePages::buildSettings(DayNotes& day) {
     auto* parts = new QWidget;
     boundWidth(*parts, kFormWidth * 3 / 2);
     auto* below = columnIn(*parts);
+    certificate_ = new CertificatePart(parts);  // first: below a long form nobody finds it
+    below->addWidget(certificate_);
     below->addWidget(form_);
     notes_ = new NotesPanel(day, parts);
     below->addWidget(notes_);
-    certificate_ = new CertificatePart(parts);
-    below->addWidget(certificate_);
     auto* fields = dressed(scrollingRows(formColumn(parts), page));
     worst_ = new WorstPage(page);
     row->addWidget(fields, 2);
