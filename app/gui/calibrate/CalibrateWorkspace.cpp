@@ -43,7 +43,7 @@ CalibrateWorkspace::CalibrateWorkspace(BenchController& controller, CalibrationB
     connect(runner_, &ProtocolWorkspace::readyChanged, this, &CalibrateWorkspace::showReady);
     // A calibration is normally stored, so the form proposes storing it.
     connect(runner_, &ProtocolWorkspace::declaredAnew, this, [this] {
-        runner_->set("store", "true");
+        runner_->propose("store", "true");
         showReady();
     });
     showHistory();
@@ -63,7 +63,7 @@ QWidget* CalibrateWorkspace::buildStored(QWidget* in) {
 /// Opens the settings; the operator then starts the run with the button there.
 void CalibrateWorkspace::prepare(const QString& mode) {
     tabs_->setCurrentIndex(kGuided);
-    runner_->set("mode", mode);
+    runner_->propose("mode", mode);
     runner_->goTo(kSettings);
 }
 

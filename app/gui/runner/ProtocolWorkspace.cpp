@@ -190,8 +190,8 @@ void ProtocolWorkspace::declared(const ProtocolSource& source, const Result<Prot
     if (declaration_) emit declaredAnew();
 }
 
-void ProtocolWorkspace::set(const std::string& parameter, const QString& text) {
-    if (!running_) pages_->form().set(parameter, text);
+void ProtocolWorkspace::propose(const std::string& parameter, const QString& text) {
+    if (!running_) pages_->form().propose(parameter, text);
 }
 
 void ProtocolWorkspace::showStep(Step step) {
@@ -388,7 +388,7 @@ void ProtocolWorkspace::goOn(NextStep next) {
             return useProfile();
         case NextStep::Check:
         case NextStep::Calibrate:
-            set("mode", next == NextStep::Check ? "check" : "full");
+            propose("mode", next == NextStep::Check ? "check" : "full");
             return runAsked();
         case NextStep::SafetyCheck:
             emit safetyCheckWanted();

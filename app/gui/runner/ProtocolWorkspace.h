@@ -37,8 +37,8 @@ public:
     [[nodiscard]] bool ready() const { return declaration_.has_value() && !running_ && obstacle_.isEmpty(); }
     /// True while a script is being read: its form does not exist yet.
     [[nodiscard]] bool reads() const { return reading_.busy(); }
-    /// Sets a parameter of the form by its name in the script; does nothing if there is none of that name.
-    void set(const std::string& parameter, const QString& text);
+    /// Proposes a value of a parameter by its name in the script; does nothing if there is none of that name.
+    void propose(const std::string& parameter, const QString& text);
     /// Returns the editor if it has unsaved changes; otherwise null.
     [[nodiscard]] ScriptEditor* unsavedScript() const;
     /// Hides the path, unless the path shows an obstacle to a run, or a question.

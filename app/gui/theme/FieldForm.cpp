@@ -274,7 +274,7 @@ void FieldForm::showFields(const std::vector<FormField>& fields) {
                 continue;
             }
             auto field = makeField(described);
-            field.atFirst = field.text();
+            field.proposed = field.atFirst = field.text();
             addRow(field);
             fields_.push_back(std::move(field));
         }
@@ -370,6 +370,15 @@ QString FieldForm::text(const std::string& name) const {
 
 void FieldForm::set(const std::string& name, const QString& text) {
     if (const auto* field = find(name)) field->write(text);
+}
+
+void FieldForm::propose(const std::string& name, const QString& text) {
+    auto* field = find(name);
+    if (field == nullptr) return;
+    // Noted first: writing makes the form say how many are changed.
+    field->proposed = text;
+    field->write(text);
+    field->proposed = field->text();
 }
 
 void FieldForm::setChoices(const std::string& name, const std::vector<std::pair<QString, QString>>& choices) {
@@ -471,7 +480,7 @@ QString FieldForm::summary() const {
             said << settingText(value->get<double>(), QString::fromStdString(field.parameter.unit));
         else if (!field.parameter.needed.empty() && known_.contains(field.parameter.name))
             said << tr("by the profile");
-        else if (field.text() != field.atFirst)
+        else if (field.text() != field.proposed)
             ++changed;
     }
     said << (changed == 0 ? tr("defaults") : tr("%1 changed").arg(changed));

@@ -62,6 +62,8 @@ public:
     [[nodiscard]] QString text(const std::string& name) const;
     /// Writes into a field as if the text were typed. Does nothing for an unknown name or choice.
     void set(const std::string& name, const QString& text);
+    /// As set(), for a value that the page proposes: summary() does not count it as changed.
+    void propose(const std::string& name, const QString& text);
     /// Replaces the choices of a field. Keeps the selected one if it still exists, else selects the first one.
     void setChoices(const std::string& name, const std::vector<std::pair<QString, QString>>& choices);
     /// Shows below a field why its owner refuses the value, until it is edited; an empty text: the value is valid.
@@ -87,7 +89,7 @@ public:
     [[nodiscard]] QString refusal() const;
     /// refusal(), or else unanswered().
     [[nodiscard]] QString wrong() const;
-    /// The parameters that decide the verdict, and how many differ from the script's defaults: "4 cm² · 2 changed".
+    /// The parameters that decide the verdict, and how many differ from what the form proposed: "4 cm² · 2 changed".
     [[nodiscard]] QString summary() const;
     /// Number of fields in this part that are refused, or that have no answer although the verdict needs one.
     [[nodiscard]] int refused(bool reference) const;
@@ -113,6 +115,7 @@ private:
         QLabel* label = nullptr;
         QLabel* range = nullptr;  // empty if the field has no range
         QString atFirst{};        // the text for the script's default
+        QString proposed{};       // that text, or what propose() wrote last
         QString why{};            // why the present text is refused
         bool left = false;        // the user has left the field, or was asked for its missing entry
     };

@@ -23,6 +23,7 @@
 namespace tacto::test {
 namespace {
 
+using testing::EndsWith;
 using testing::HasSubstr;
 
 class Calibrate : public testing::Test {
@@ -80,8 +81,13 @@ TEST_F(Calibrate, FromNeverToCalibratedAndChecked) {
     EXPECT_THAT(says("calibrationState"), HasSubstr("No stimulator has been open yet"));
     EXPECT_FALSE(button("checkButton")->isEnabled());
     shot(workspace, "calibrate_first");
+    const auto note = [this] { return the<gui::StepButton>("Settings").accessibleDescription().toStdString(); };
+    EXPECT_THAT(note(), EndsWith("defaults")) << "what the page proposes is no change";
     withoutWarmUp();
+    EXPECT_THAT(note(), EndsWith("1 changed"));
     auto& certificate = *workspace.runner().findChild<gui::CertificatePart*>();
+    const auto* field = workspace.runner().findChild<QLineEdit*>("warm_up_s");
+    EXPECT_LT(certificate.mapTo(&workspace, QPoint()).y(), field->mapTo(&workspace, QPoint()).y()) << "it is seen";
     click(*certificate.findChild<QPushButton*>("certificateDetails"));
     auto& form = *certificate.findChild<gui::CertificateForm*>();
     form.findChild<QLineEdit*>("customer")->setText("The customer of this item alone");

@@ -50,7 +50,7 @@ TEST_P(Results, ShowNoKeyAndNeedNoScrollingSideways) {
     const std::pair<const char*, const char*> quick[] = {{"area", "4"},   {"steps", "2"},   {"warm_up_s", "0"},
                                                          {"levels", "3"}, {"repeats", "2"}, {"participants", "20"}};
     for (const auto& [field, text] : quick) {
-        if (workspace->findChild<QLineEdit*>(field) != nullptr) workspace->set(field, text);
+        if (workspace->findChild<QLineEdit*>(field) != nullptr) workspace->propose(field, text);
     }
     ASSERT_IN_TIME(ready()) << says("runObstacle").toStdString();
     click(the<QPushButton>("runButton"));
