@@ -51,6 +51,16 @@ Result<void> FaultSchedule::add(std::string_view text, std::initializer_list<Fau
     return fail(ErrorCode::InvalidArgument, "fault \"{}\" is not one that this device can have: {}", text, names);
 }
 
+Result<void> FaultSchedule::plugged(std::string_view device, Instant now) const {
+    for (const auto& entry : entries_) {
+        if (entry.fault != Fault::Unplug || now < entry.from || now >= entry.to) continue;
+        return fail(
+            ErrorCode::Device, "the simulated {} is unplugged{}", device,
+            entry.to == Instant::max() ? ", and is back when the bench is opened again without this fault" : "");
+    }
+    return {};
+}
+
 std::optional<Instant> FaultSchedule::since(Fault fault, Instant now) const noexcept {
     for (const auto& entry : entries_) {
         if (entry.fault == fault && entry.from <= now && now < entry.to) return entry.from;

@@ -39,6 +39,8 @@ public:
     [[nodiscard]] bool active(Fault fault, Instant now) const noexcept { return since(fault, now).has_value(); }
     /// Returns when the active period of `fault` began, or nothing if it is not active at `now`.
     [[nodiscard]] std::optional<Instant> since(Fault fault, Instant now) const noexcept;
+    /// Errors: Device while `device` ("stimulator") is unplugged; of one that stays so it says what brings it back.
+    [[nodiscard]] Result<void> plugged(std::string_view device, Instant now) const;
     [[nodiscard]] bool empty() const noexcept { return entries_.empty(); }
 
 private:

@@ -18,9 +18,7 @@ SimulatedMassager::SimulatedMassager(DeviceIdentity identity, std::shared_ptr<Wo
 Result<void> SimulatedMassager::vibrate(ApprovedBurst&& burst) {
     const ApprovedBurst consumed = std::move(burst);
     const Instant now = world_->clock().now();
-    if (settings_.faults.active(Fault::Unplug, now)) {
-        return fail(ErrorCode::Device, "the simulated massager is unplugged");
-    }
+    if (auto there = settings_.faults.plugged("massager", now); !there) return there;
     if (auto current = notExpired(consumed.expires(), now, "the simulated massager", "a burst"); !current)
         return current;
     const double asked = consumed.burst().intensity;

@@ -37,9 +37,7 @@ SimulatedOscilloscope::SimulatedOscilloscope(DeviceIdentity identity, std::share
 }
 
 Result<void> SimulatedOscilloscope::answers(Instant now) const {
-    if (flaws_.faults.active(Fault::Unplug, now)) {
-        return fail(ErrorCode::Device, "the simulated oscilloscope is unplugged");
-    }
+    if (auto there = flaws_.faults.plugged("oscilloscope", now); !there) return there;
     if (flaws_.faults.active(Fault::Garbage, now)) {
         return fail(ErrorCode::Device, "the simulated oscilloscope answered with garbage: not a waveform block");
     }

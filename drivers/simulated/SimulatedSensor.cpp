@@ -137,7 +137,7 @@ Result<void> SimulatedSensor::read(std::span<SampleBlock> blocks) {
     const Instant now = world_->clock().now();
     const auto& faults = settings_.faults;
     if (settings_.onMotor) motor_ = world_->motor();
-    if (faults.active(Fault::Unplug, now)) return fail(ErrorCode::Device, "the simulated finger is unplugged");
+    if (auto there = faults.plugged("finger", now); !there) return there;
     const bool late = faults.active(Fault::Late, now);
     const double until = toSeconds(now) - (late ? kLateness.count() : 0);
     const auto due = static_cast<std::int64_t>(std::floor((until - opened_s_) * settings_.rate_hz + 1e-6)) + 1;

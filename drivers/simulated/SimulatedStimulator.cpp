@@ -47,9 +47,7 @@ SimulatedStimulator::SimulatedStimulator(DeviceIdentity identity, std::shared_pt
 }
 
 Result<void> SimulatedStimulator::answers(Instant now) const {
-    if (settings_.faults.active(Fault::Unplug, now)) {
-        return fail(ErrorCode::Device, "the simulated stimulator is unplugged");
-    }
+    if (auto there = settings_.faults.plugged("stimulator", now); !there) return there;
     if (settings_.faults.active(Fault::Garbage, now)) {
         return fail(ErrorCode::Device, "the simulated stimulator answered with garbage: the reply fails its checksum");
     }

@@ -449,6 +449,10 @@ TEST_F(BenchTest, AFaultIsLeftOnlyWhenItsCauseIsGone) {
     EXPECT_EQ(bench_->faults(), 1U);
     EXPECT_THAT(bench_->resetFault(), refusedSaying("not reset"));
     EXPECT_EQ(state(), InterlockState::Faulted);
+    open({"sim:stimulator?fault=unplug@2s"});
+    ASSERT_TRUE(armAndDrive(0, 1));
+    ASSERT_FALSE(bench_->wait(Seconds(5)));
+    EXPECT_THAT(bench_->resetFault(), refusedSaying("is back when the bench is opened again without this fault"));
 }
 
 TEST_F(BenchTest, ACurrentSourceGetsCurrentFromTheMeasuredImpedance) {
