@@ -296,6 +296,29 @@ TEST_F(PilotOutputTest, AStopWithAFaultCounts) {
     EXPECT_EQ(record_->count(row::kParticipantStop), 1U);
 }
 
+TEST_F(PilotOutputTest, AFaultBeforeAKillIsOneFaultAfterIt) {
+    RecordProperty("hazard", "H8");
+    more_ = "&fault=open@20.2s..21s";
+    begin();
+    ASSERT_TRUE(stage_->pass(Seconds(19)));
+    operatorTakesTime();
+    ASSERT_TRUE(stage_->trial(trial()));
+    ASSERT_EQ(record_->count(row::kFault), 1U);
+    close();
+    const auto earlier = rows();
+    EXPECT_EQ(std::ranges::count(earlier, row::kFault, &SessionRow::name), 2) << "the bench's own and the session's";
+    more_ = {};
+    begin(earlier);
+    EXPECT_EQ(record_->count(row::kFault), 1U);
+    EXPECT_EQ(endedBy(*record_), "") << "it can go on";
+    more_ = "&fault=open@20.2s..21s";
+    begin(earlier);
+    ASSERT_TRUE(stage_->pass(Seconds(19)));
+    auto next = trial();
+    next.name = "another";
+    EXPECT_THAT(stage_->trial(next), refusedSaying("a second fault ends the session"));
+}
+
 /// Told once, in a sentence that does not say "off" if the output may still be on.
 TEST_F(PilotOutputTest, OfEachFaultTheOperatorReadsWhatItLeavesOfTheOutput) {
     RecordProperty("hazard", "H2");
