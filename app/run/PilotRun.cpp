@@ -85,6 +85,17 @@ auto watching(PilotParticipant& watch, double pace, std::shared_ptr<const Clock>
     };
 }
 
+/// Returns the words on the target that a virtual participant would touch, who learns what it is told by name; empty
+/// where nothing is felt or asked.
+std::string likelyAnswerOf(VirtualPilotParticipant& who, const FeltPresentation& felt, const PilotPrompt& prompt) {
+    who.delivered(felt);
+    if (!(felt.level > 0) || prompt.targets.empty()) return {};
+    const auto said = who.ask(prompt);
+    if (!said) return {};
+    const auto found = std::ranges::find(prompt.targets, said->key(), &PromptTarget::key);
+    return found == prompt.targets.end() ? std::string() : found->text;
+}
+
 /// Levels rise one step at a time, and no current is permitted.
 PersonSetup vibrated(const Participant& who) {
     PersonSetup person;
@@ -285,6 +296,11 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     if (const auto& continued = made->unfinished_.continued())
         made->session_->resumesFrom(continued->parts.back().file, made->unfinished_.earlier().chainHead);
     auto* raw = made.get();
+    if (made->virtual_ && truth == nullptr)
+        made->session_->stage().likelyAnswer = [virtualOne = made->virtual_.get()](const auto& felt,
+                                                                                   const auto& prompt) {
+            return likelyAnswerOf(*virtualOne, felt, prompt);
+        };
     made->session_->mayGoOn = [raw] { return raw->mayGoOn(); };
     made->session_->care().skinReacted = [raw](const std::string& moment, int score) {
         return raw->noteSkin(moment, score);

@@ -26,6 +26,7 @@ struct FeltPresentation {
     double weaker = 0;    ///< in a comparison, the other of its two levels; else 0
     int inInterval = 0;   ///< interval (1 or 2) of a detection trial's train or of the stronger train; else 0
     std::string named;    ///< familiarisation: the key of the condition named on the screen; else empty
+    std::string likely;   ///< what a virtual participant says of it, in the words of its target; empty: not known
     /// How long trains were given in this session before this presentation; adaptation depends on this time.
     Seconds stimulated{0};
     /// The key for drawing the person's answer, such as "seed 1 session 2 test 17". A resume does not change the key.

@@ -172,6 +172,7 @@ void PilotStage::feel(const StageTrial& trial) {
     felt.stimulated = stimulated_;
     felt.drawnFor = fmt::format("seed {} session {} {}", settings_.seed, settings_.session,
                                 trial.drawnAs.empty() ? trial.name : trial.drawnAs);
+    if (likelyAnswer) felt.likely = likelyAnswer(felt, trial.prompt);
     participant_.delivered(felt);
 }
 

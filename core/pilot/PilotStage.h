@@ -99,6 +99,8 @@ public:
     [[nodiscard]] Result<void> goOnAfter(const std::string& during, const Error& why) {
         return output_.recover(during, why);
     }
+    /// In a rehearsal with a person, who feels nothing: sets FeltPresentation::likely. May be empty.
+    std::function<std::string(const FeltPresentation&, const PilotPrompt&)> likelyAnswer;
     /// Looks after a participant who was stimulated: called with the output off once a session that presented anything
     /// was stopped for good. Its errors become a note in the record and change nothing else.
     std::function<Result<void>()> afterCare;

@@ -60,13 +60,17 @@ bool saysWhatIsFelt(const PilotStart& start) {
 QString feltText(const FeltPresentation& felt, bool massager) {
     if (!(felt.level > 0)) return QObject::tr("felt: nothing");
     const auto level = [massager](double of) {
-        return massager ? QObject::tr("strength %1").arg(decimalText(of, 2)) : settingText(of, "mA");
+        const auto said = QString::number(of, 'g', 3);
+        return massager ? QObject::tr("strength %1").arg(said) : QObject::tr("%1 mA").arg(said);
     };
     const auto where = felt.inInterval == 1 ? QObject::tr("first interval") : QObject::tr("second interval");
-    if (felt.weaker > 0)
-        return QObject::tr("felt: %1 and %2, the stronger in the %3").arg(level(felt.level), level(felt.weaker), where);
-    if (felt.inInterval > 0) return QObject::tr("felt: %1 in the %2").arg(level(felt.level), where);
-    return QObject::tr("felt: %1 every %2").arg(level(felt.level), settingText(felt.interval.count(), "s"));
+    const auto what =
+        felt.weaker > 0
+            ? QObject::tr("felt: %1 and %2, the stronger in the %3").arg(level(felt.level), level(felt.weaker), where)
+        : felt.inInterval > 0
+            ? QObject::tr("felt: %1 in the %2").arg(level(felt.level), where)
+            : QObject::tr("felt: %1 every %2 s").arg(level(felt.level), QString::number(felt.interval.count(), 'g', 3));
+    return felt.likely.empty() ? what : QObject::tr("%1, perhaps “%2”").arg(what, qtext(felt.likely));
 }
 
 }  // namespace
