@@ -120,7 +120,7 @@ Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry
     auto opened = std::make_shared<OpenedBench>();
     opened->tap = std::move(tap);
     if (*allVirtual && !order.realtime)
-        opened->clock = std::make_shared<VirtualClock>();
+        opened->clock = std::make_shared<VirtualClock>(order.pace);
     else
         opened->clock = std::make_shared<SteadyClock>();
     const OpenContext context{.clock = *opened->clock,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@ struct BenchOrder {
     std::set<Role> needed = {};  ///< sim: fills the roles that no other device has
     std::string declaredLoad = kDefaultLoad;
     std::uint64_t seed = 1;
-    bool realtime = false;  ///< uses the steady clock even if a virtual clock would do
+    bool realtime = false;            ///< uses the steady clock even if a virtual clock would do
+    std::optional<double> pace = {};  ///< of a virtual clock, as VirtualClock
     Profile profile = {};
     ShippedLimits limits = {};
     std::string out = {};  ///< folder, as prepareRunFiles() accepts it

@@ -25,7 +25,8 @@ struct PilotOrder {
     /// Is shown what a virtual participant is shown; must outlive the run. May be null.
     PilotParticipant* watch = nullptr;
     /// How many times faster than with a person a virtual participant's screens pass; 0: as fast as possible. No screen
-    /// stays for more than a second.
+    /// stays for more than a second. Where a person answers on simulated devices, how many times faster all but their
+    /// answers passes; 0: in real time.
     double pace = 0;
 };
 

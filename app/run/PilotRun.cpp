@@ -238,7 +238,10 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
         if (!listens) return failure(listens);
         markers = std::move(*listens);
     }
-    order.realtime = order.realtime || pilot.people != nullptr;
+    if (pilot.people != nullptr && pilot.pace > 0)
+        order.pace = pilot.pace;
+    else
+        order.realtime = order.realtime || pilot.people != nullptr;
     if (auto lsl = prepareLsl(order, registry); !lsl) return failure(lsl);
     if (auto held = virtualChecklist(order, pilot.study); !held) return failure(held);  // before a rehearsal is made
     auto study = openStudyFor(order, pilot);
@@ -293,14 +296,14 @@ Result<std::unique_ptr<PilotRun>> PilotRun::prepare(RunOrder order, PilotOrder p
     const auto parts = static_cast<int>(made->begun_->session.parts.size());
     made->session_ =
         std::make_unique<PilotSession>(made->run_->bench(), *people, *made->record_, made->settings_, truth, parts);
-    if (const auto& continued = made->unfinished_.continued())
-        made->session_->resumesFrom(continued->parts.back().file, made->unfinished_.earlier().chainHead);
-    auto* raw = made.get();
     if (made->virtual_ && truth == nullptr)
         made->session_->stage().likelyAnswer = [virtualOne = made->virtual_.get()](const auto& felt,
                                                                                    const auto& prompt) {
             return likelyAnswerOf(*virtualOne, felt, prompt);
         };
+    if (const auto& continued = made->unfinished_.continued())
+        made->session_->resumesFrom(continued->parts.back().file, made->unfinished_.earlier().chainHead);
+    auto* raw = made.get();
     made->session_->mayGoOn = [raw] { return raw->mayGoOn(); };
     made->session_->care().skinReacted = [raw](const std::string& moment, int score) {
         return raw->noteSkin(moment, score);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "core/base/LocaleFreeText.h"
 
@@ -45,9 +46,10 @@ Instant SteadyClock::now() const noexcept {
 Instant VirtualClock::now() const noexcept { return Instant(now_.load(std::memory_order_acquire)); }
 
 void VirtualClock::advanceTo(Instant moment) noexcept {
-    if (moment.count() > now_.load(std::memory_order_relaxed)) {
-        now_.store(moment.count(), std::memory_order_release);
-    }
+    const auto ahead = moment.count() - now_.load(std::memory_order_relaxed);
+    if (ahead <= 0) return;
+    if (pace_) std::this_thread::sleep_for(Seconds(Instant(ahead)) / *pace_);
+    now_.store(moment.count(), std::memory_order_release);
 }
 
 Instant VirtualClock::asleep() const noexcept { return Instant(asleep_.load(std::memory_order_acquire)); }

@@ -1,7 +1,7 @@
 // Clock.h - the only source of time in core, apart from SystemTime; no other code asks the system for the time.
 //
 // A SteadyClock runs in real time. Only the control loop moves a VirtualClock, so that a session of two hours takes
-// seconds and the same seed gives the same bytes.
+// seconds and the same seed gives the same bytes. At a pace it takes its time, so that a person can follow.
 //
 // Thread-safety: any thread may call now() and asleep(). VirtualClock::advanceTo() and sleepFor() have one caller, the
 // control loop.
@@ -42,15 +42,19 @@ private:
 
 class VirtualClock final : public Clock {
 public:
+    /// `pace`: how many times faster than real time it passes, above 0; nothing: as fast as possible. It stands still
+    /// while nobody moves it, as where a question waits for its answer.
+    explicit VirtualClock(std::optional<double> pace = std::nullopt) noexcept : pace_(pace) {}
     [[nodiscard]] Instant now() const noexcept override;
     [[nodiscard]] bool isVirtual() const noexcept override { return true; }
     [[nodiscard]] Instant asleep() const noexcept override;
-    /// Moves time forward; ignores a moment in the past.
+    /// Moves time forward, at a pace after waiting for as long as that takes; ignores a moment in the past.
     void advanceTo(Instant moment) noexcept;
     /// Simulates a sleep of the computer for `duration`: now() does not change.
     void sleepFor(Instant duration) noexcept;
 
 private:
+    const std::optional<double> pace_;
     std::atomic<Instant::rep> now_{0};
     std::atomic<Instant::rep> asleep_{0};
 };

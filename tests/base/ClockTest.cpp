@@ -23,6 +23,16 @@ TEST(VirtualClock, IgnoresAMomentAlreadyPast) {
     EXPECT_EQ(clock.now(), 2s);
 }
 
+TEST(VirtualClock, TakesItsTimeAtAPace) {
+    VirtualClock clock(4);
+    const auto began = std::chrono::steady_clock::now();
+    for (int turn = 1; turn <= 40; ++turn) clock.advanceTo(turn * 5ms);
+    clock.advanceTo(100ms);  // a moment in the past takes none
+    EXPECT_EQ(clock.now(), 200ms);
+    EXPECT_GE(std::chrono::steady_clock::now() - began, 50ms);
+    EXPECT_TRUE(clock.isVirtual());
+}
+
 TEST(VirtualClock, StandsStillWhileTheComputerSleeps) {
     VirtualClock clock;
     clock.advanceTo(2s);

@@ -38,7 +38,7 @@ struct PilotStart {
     std::uint64_t seed = 1;          ///< seed of the plan and the order, and of a rehearsal's virtual participant
     std::string modality = "study";  ///< for a new rehearsal: "electrodes" or "massager"; "study": the study's own
     std::optional<int> blocks{};     ///< blocks of a rehearsal's test; nothing: as many as in the study
-    double pace = 0;                 ///< of a virtual participant's screens, as PilotOrder::pace
+    double pace = 0;                 ///< of a rehearsal, as PilotOrder::pace
     int studyBlocks = 5;             ///< blocks of the test where `blocks` says nothing
     QString language{};              ///< of the participant: "de"; empty: English, or the approval's first
     bool realTime = false;           ///< a session with a virtual participant takes as long as with a person

@@ -62,7 +62,7 @@ QString firstFolder() {
     return seenIn(last).unfinished ? last : newFolder();
 }
 
-constexpr double kTenfold = 10;
+constexpr double kTenfold = 10, kFourfold = 4;
 
 }  // namespace
 
@@ -136,6 +136,10 @@ std::vector<FormField> RehearsalPage::fields() const {
                      {"own", tr("the session’s own")}},
                     tr("As fast as possible: seconds. Ten times as fast: some minutes; no screen stays for more than a "
                        "second. The session’s own: as long as with a person, to watch what is delivered.")),
+        choiceField("ownPace", tr("Pace"),
+                    {{"fourfold", tr("four times as fast as a session")}, {"own", tr("the session’s own")}},
+                    tr("What is presented, and the pauses, pass four times as fast: nothing is felt, so nothing is "
+                       "lost. You have as long to answer as ever. The session’s own: as a participant will know it.")),
         wholeField("rehearsalSeed", tr("Seed"), 1, kMaxSeed, 1,
                    tr("The same seed gives the same order, and the same virtual participant.")),
         choiceField("rehearsalModality", tr("Felt through"),
@@ -163,7 +167,10 @@ PilotStart RehearsalPage::rehearsal() const {
     made.person = person();
     const auto pace = form_->text("rehearsalPace");
     made.realTime = !made.person && pace == "own";
-    made.pace = !made.person && pace == "tenfold" ? kTenfold : 0;
+    if (made.person)
+        made.pace = form_->text("ownPace") == "fourfold" ? kFourfold : 0;
+    else
+        made.pace = pace == "tenfold" ? kTenfold : 0;
     made.who = made.person ? tr("you") : tr("virtual, seed %1").arg(made.seed);
     made.unfinished = offer_->chosen();
     const auto modality = form_->text("rehearsalModality").toStdString();
@@ -197,6 +204,7 @@ void RehearsalPage::renew() { folder_->line().setText(newFolder()); }
 void RehearsalPage::judge() {
     followOffer(*form_, *offer_);
     form_->setRowVisible("rehearsalPace", !person());
+    form_->setRowVisible("ownPace", person());
     const auto pace = form_->text("rehearsalPace");
     seats_->showFor(person(), pace == "own" ? tr("about an hour") : pace == "tenfold" ? tr("some minutes") : QString());
     form_->setFieldEnabled("rehearsalBlocks", !offer_->goesOn() && isWholeSession(*form_));

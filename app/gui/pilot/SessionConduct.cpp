@@ -39,7 +39,7 @@ Result<RunOrder> pilotOrder(const PilotStart& start, BenchController& controller
     order.uris = start.devices;
     order.needed = order.declaration.needs;
     order.seed = start.seed;
-    order.realtime = start.person || start.realTime;
+    order.realtime = start.realTime || (start.person && start.pace == 0);
     return order;
 }
 
@@ -48,6 +48,7 @@ QString noteOf(const PilotStart& start) {
     QStringList notes;
     if (start.rehearsal) notes << QObject::tr("rehearsal");
     if (start.simulated()) notes << QObject::tr("simulated");
+    if (start.person && start.pace > 0) notes << QObject::tr("%1 times as fast").arg(start.pace);
     return notes.join(" · ");
 }
 
@@ -276,10 +277,8 @@ void SessionConduct::run() {
     seats.exclusions = start_.exclusions;
     seats.markers = start_.markers;
     order_.lsl = start_.lsl;
-    if (!start_.person) {
-        seats.watch = &desk_;
-        seats.pace = start_.pace;
-    }
+    seats.pace = start_.pace;
+    if (!start_.person) seats.watch = &desk_;
     if (start_.person) {
         seats.people = &desk_;
         seats.codeConfirmed = codeConfirmed_;

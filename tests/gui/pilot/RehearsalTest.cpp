@@ -42,7 +42,7 @@ protected:
         window.showWorkspace(4);
         letLive(50);
     }
-    void begin(bool person, const char* modality = "electrodes") {
+    void begin(bool person, const char* modality = "electrodes", const char* pace = "own") {
         pilot = window.findChild<gui::PilotWorkspace*>();
         pilot->findChild<QLineEdit*>("studyFolder")
             ->setText(QString::fromStdString((folder.path() / "study").string()));
@@ -50,6 +50,9 @@ protected:
         pilot->findChild<QLineEdit*>("rehearsalBlocks")->setText("1");
         auto* through = pilot->findChild<QComboBox*>("rehearsalModality");
         through->setCurrentIndex(through->findData(modality));
+        auto* ownPace = pilot->findChild<QComboBox*>("ownPace");
+        EXPECT_EQ(ownPace->isVisible(), person);
+        ownPace->setCurrentIndex(ownPace->findData(pace));
         click(*pilot->findChild<QPushButton*>("beginRehearsal"));
         const auto* trouble = pilot->findChild<QLabel*>("rehearsalTrouble");
         ASSERT_TRUE(pilot->running()) << trouble->text().toStdString();
@@ -347,6 +350,61 @@ TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
     ASSERT_IN_TIME(comesTrue([&] { return reason() != nullptr && reason()->isVisible(); }, 20'000));
     EXPECT_EQ(window.controller().telemetry().state, InterlockState::Disarmed) << "the reason comes after it is off";
     QTest::keyClicks(reason(), "fire alarm");
+/// Nothing is felt, so nobody waits for it; the person still answers in their own time, and stops.
+TEST_F(RehearsalInTheWindow, FourTimesAsFastAllButTheAnswersPass) {
+    RecordProperty("hazard", "H2");
+    pilot = window.findChild<gui::PilotWorkspace*>();
+    EXPECT_EQ(pilot->findChild<QComboBox*>("ownPace")->currentData(), "fourfold") << "unless it is chosen otherwise";
+    pilot->findChild<gui::RehearsalPage*>()->findChild<QCheckBox*>("blind")->setChecked(false);
+    begin(true, "electrodes", "fourfold");
+    const QPointer theirs = pilot->participantWindow();
+    ASSERT_NE(theirs, nullptr);
+    const auto says = [&](const QString& words) {
+        return theirs && std::ranges::any_of(theirs->findChildren<QLabel*>(), [&](const QLabel* each) {
+                   return each->isVisible() && each->text().contains(words);
+               });
+    };
+    EXPECT_TRUE(says("4 times as fast"));
+    ASSERT_NO_FATAL_FAILURE(readOn());
+    QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);
+    const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
+    ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && strip->question().open(); }, 20'000));
+    letLive(150);  // so that it does not count as the participant's press
+    const auto* red = strip->findChild<gui::ParticipantStop*>("operatorStop");
+    QTest::mousePress(theirs->windowHandle(), Qt::LeftButton, {}, red->mapTo(theirs, red->rect().center()));
+    for (const char* what : {"Redness", "Swelling"}) {
+        ASSERT_IN_TIME(comesTrue([&] { return says(what) && find<QPushButton>(*strip, "0 none") != nullptr; }, 20'000))
+            << what;
+        click(*find<QPushButton>(*strip, "0 none"));
+    }
+    ASSERT_IN_TIME(comesTrue([&] { return says("Lot of the new pair"); }, 20'000));
+    const auto enteredAt = std::chrono::steady_clock::now();
+    click(*find<QPushButton>(*strip, "Enter"));
+    ASSERT_IN_TIME(comesTrue([&] { return says("Which of these do you notice"); }, 25'000)) << "30 s, at its pace";
+    EXPECT_GE(std::chrono::steady_clock::now() - enteredAt, std::chrono::seconds(7));
+    QTest::keyClick(theirs->windowHandle(), Qt::Key_Return);
+    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking() && says("pulses that rise"); }, 20'000));
+    QTest::keyClick(theirs->windowHandle(), Qt::Key_1);
+    ASSERT_IN_TIME(comesTrue([&] { return theirs->asking() && says("Series 1 of 3"); }, 20'000));
+    QTest::keyPress(theirs->windowHandle(), Qt::Key_H);
+    const auto asksStrength = [&] { return theirs->asking() && says("What did you feel?"); };
+    for (int answers = 0; answers < 12; ++answers) {  // some are empty
+        ASSERT_IN_TIME(comesTrue(asksStrength, 20'000)) << theirs->title().toStdString();
+        if (says("perhaps")) break;
+        QTest::keyClick(theirs->windowHandle(), Qt::Key_1);
+        ASSERT_IN_TIME(comesTrue([&] { return !theirs->asking(); }, 20'000));
+    }
+    EXPECT_TRUE(says("felt: 0.5 mA every 0.5 s, perhaps “Nothing”"));
+    shot(*theirs, "pilot-rehearsal-likely");
+    QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);
+    ASSERT_IN_TIME(comesTrue([&] { return says("Stopped."); }, 20'000));
+    EXPECT_NE(window.controller().telemetry().state, InterlockState::Armed);
+    EXPECT_IN_TIME(comesTrue([&] { return count(row::kParticipantStop) == 1; }, 20'000));
+    window.controller().stop("operator (signal)");
+    ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
+    EXPECT_EQ(faultsOf(window), "");
+}
+
     QTest::keyClick(reason(), Qt::Key_Return);
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     EXPECT_NE(find<QPushButton>(*pilot, "Go on with the session"), nullptr) << headline();
