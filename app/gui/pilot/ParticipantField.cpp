@@ -48,6 +48,7 @@ void ParticipantField::drop() {
         target->deleteLater();  // perhaps called from a press on this target
     }
     targets_.clear();
+    setAccessibleName({});
 }
 
 void ParticipantField::clear() {
@@ -66,6 +67,7 @@ void ParticipantField::showWord(const QString& word, const QStringList& icons) {
     drop();
     content_ = Content::Word;
     word_ = word;
+    setAccessibleName(word);  // what is painted is told to a screen reader too
     wordIcons_ = icons;
     update();
 }
@@ -74,6 +76,7 @@ void ParticipantField::showIntervals(int passing) {
     drop();
     content_ = Content::Intervals;
     passing_ = passing;
+    if (passing > 0) setAccessibleName(QString::number(passing));
     update();
 }
 

@@ -206,6 +206,8 @@ TEST_F(ParticipantLooks, TheOtherPhasesInBothThemes) {
             QCoreApplication::processEvents();
             shot(window, QString("participant-%1-%2").arg(name, theme == gui::Theme::Dark ? "dark" : "light"));
             EXPECT_EQ(faultsOf(window), "") << name;
+            if (screen.state == ScreenState::Named) EXPECT_EQ(window.field().accessibleName(), "rough, firm");
+            if (screen.state == ScreenState::Feel) EXPECT_EQ(window.field().accessibleName(), "");
             const auto red = gui::stateStyle(InterlockState::Faulted).ground;
             EXPECT_EQ(pixelsOf(window.grab().toImage(), red),
                       pixelsOf(window.findChild<gui::ParticipantStop*>()->grab().toImage(), red))
