@@ -103,7 +103,7 @@ struct StepTelemetry {
     MeasuredOutput measured;                       ///< largest of the last 5 s, from trains since arming
     std::uint64_t trainsDelivered = 0;             ///< trains, or bursts of a massager
     std::uint64_t trainsRefused = 0;               ///< trains that the limits refused
-    std::uint64_t trainsSkipped = 0;               ///< trains skipped because sensor data were stale or missing
+    std::uint64_t trainsSkipped = 0;  ///< trains skipped because sensor data, or a board's trains, came late
     FixedText<200> lastRefusal;
     std::uint64_t samplesLost = 0;  ///< ring overflows since the start
     std::uint64_t gaps = 0;         ///< gaps found in the sensor streams

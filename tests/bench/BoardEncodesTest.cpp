@@ -6,6 +6,7 @@
 
 #include "core/base/Random.h"
 #include "core/devices/EncodingSensor.h"
+#include "core/session/SessionReader.h"
 #include "tests/bench/BenchFixture.h"
 #include "tests/bench/FakeStimulator.h"
 #include "tests/bench/PersonFixture.h"
@@ -420,6 +421,57 @@ TEST_F(BoardEncodesBench, TheGateRefusesItsTrainAsAnyOther) {
     EXPECT_EQ(bench_->telemetry().trainsDelivered, 1U);
     EXPECT_EQ(bench_->telemetry().trainsRefused, 1U);
     EXPECT_THAT(std::string(bench_->telemetry().lastRefusal.view()), HasSubstr("peak current"));
+}
+
+TEST_F(BoardEncodesBench, TheSessionTellsWhatTheBoardSaid) {
+    RecordProperty("hazard", "H8");
+    const ScratchDir folder;
+    const VirtualClock sessionClock;
+    const auto file = folder.path() / "run.tacto";
+    const auto writer = SessionWriter::create(file, {}, sessionClock).value();
+    session_ = writer.get();
+    encoderHash_ = [](const TactileSensor&, const Profile&, const GateSetup&) -> Result<std::uint32_t> { return 0xAU; };
+    openWith({true, 0xA});
+    ASSERT_TRUE(arm().has_value());
+    ASSERT_TRUE(bench_->drive(DriveSource::Sensor).has_value());
+    ASSERT_TRUE(bench_->wait(Seconds(1)).has_value());
+    const double now = toSeconds(clock_->now());
+    auto& next = finger_->next;
+    next.frames.push_back({now, true, true, false, 0.5, 0.25, 0.75, 8000, 0.125});
+    next.silences.push_back({now, "a sensor that repeats itself"});
+    ASSERT_TRUE(bench_->wait(Seconds(0.1)).has_value());
+    next.silences.push_back({now + 0.1, ""});
+    next.trains.push_back({now - 3, Seconds(1), Volts(20), 20, profile_.encoding.train});
+    ASSERT_TRUE(bench_->wait(Seconds(0.1)).has_value());
+    next.trains.push_back({toSeconds(clock_->now()), Seconds(1), Volts(20), 20, profile_.encoding.train});
+    ASSERT_TRUE(bench_->wait(Seconds(0.5)).has_value());
+    bench_.reset();
+    ASSERT_TRUE(writer->close());
+    const auto reader = SessionReader::open(file).value();
+    std::vector<std::string> said;
+    const auto events = reader.events().value();
+    for (const auto& row : events) {
+        if (row.name == "board encodes") said.push_back(row.body["hash"].get<std::string>());
+        if (row.name == "board silent") said.push_back(row.body["text"].get<std::string>());
+        if (row.name == "board train skipped") EXPECT_NEAR(row.body["late_s"].get<double>(), 3.1, 0.02);
+        if (row.name == "board train skipped") said.push_back("late");
+    }
+    EXPECT_THAT(said, testing::ElementsAre("0000000a", "a sensor that repeats itself",
+                                           "nothing keeps the board's trains back", "late"));
+    std::vector<double> frame;
+    const auto streams = reader.streams().value();
+    for (const auto& stream : streams)
+        if (stream.stream.kind == "board_frames") frame = reader.samples(stream.id).value().values;
+    EXPECT_EQ(frame, (std::vector<double>{1, 1, 0.5, 0.25, 0.75, 8000, 0.125}));
+    int planned = 0;
+    const auto commands = reader.commands().value();
+    for (const auto& row : commands) {
+        if (row.name != "train") continue;
+        ++planned;
+        EXPECT_EQ(row.body["roughness"], 0.75) << "R of the encoder that made the train";
+        EXPECT_EQ(row.body["pressure"], 0.125);
+    }
+    EXPECT_EQ(planned, 1);
 }
 
 class PersonAtABoard : public PersonFixture {};
