@@ -130,6 +130,12 @@ json streamJson(const SensorBoard& board, const Listened& heard, std::size_t i) 
             {"scale_uncertainty", calibration.uncertainty}};
 }
 
+/// Returns the hash of the profile in the board's encoder; empty if it was not asked to encode.
+std::string encoderText(const SensorBoard& board) {
+    const auto encoder = board.encoder();
+    return encoder ? fmt::format("{:08x}", encoder->hash) : "";
+}
+
 json statusJson(const SensorBoard& board, const Listened& heard) {
     const auto& who = board.identity();
     auto streams = json::array();
@@ -147,6 +153,7 @@ json statusJson(const SensorBoard& board, const Listened& heard) {
             {"streams", std::move(streams)},
             {"losses", rows.losses},
             {"line", std::move(line)},
+            {"encoder_hash", textOrNull(encoderText(board))},
             {"board",
              {{"faulty_streams", own.faultyStreams},
               {"samples_lost", own.samplesLost},
@@ -175,6 +182,7 @@ void printText(const SensorBoard& board, const Listened& heard) {
                                nameOf(board.configuration(i).format), symbolOf(info.unit), info.rate_hz,
                                heard.health[i].rate_hz, calibrationText(board.calibrations()[i]))});
     }
+    if (board.encoder()) table.add({"encoder", "encodes by a profile with hash " + encoderText(board)});
     const auto& report = heard.report;
     const auto losses = sensorboard::lossesOf(report);
     table.add(

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "resources/firmware/tactile_encoder/tactile_encoder.h"
 #include "tests/cli/ExitsInTime.h"
 #include "tests/cli/Shape.h"
 #include "tests/drivers/sensor_board/BoardOnPty.h"
@@ -74,6 +75,18 @@ TEST_F(SensorCommand, RatesAreSetByTheUri) {
     const auto ran = desk_.run({"sensor", "status", uri("&rate=1kHz"), "--seconds", "0.5", "--json"});
     ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;
     EXPECT_EQ(jsonOf(ran)["streams"][0]["rate_hz"], 1000.0);
+}
+
+TEST_F(SensorCommand, ABoardThatEncodesSaysByWhichProfile) {
+    sensorboard::EmulatedBoardSettings settings;
+    settings.highestVersion = 2;
+    settings.encoder = tsb_encoder{0, 0, TE_LAYOUT, 0x00C0FFEE};
+    const BoardOnPty board(clock_, settings);
+    const auto about = "sensor:?emulated=yes&encodes=shown&tty=" + board.path();
+    const auto ran = desk_.run({"sensor", "status", about, "--seconds", "0.5", "--json"});
+    ASSERT_EXIT_IN_TIME(ran.code, 0) << ran.err;
+    EXPECT_EQ(jsonOf(ran)["encoder_hash"], "00c0ffee");
+    EXPECT_THAT(desk_.run({"sensor", "status", about, "--seconds", "0.5"}).out, HasSubstr("with hash 00c0ffee"));
 }
 
 TEST_F(SensorCommand, ABoardThatTalksGarbageOrIsNotThereCouldNotRun) {
