@@ -2,8 +2,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/cli/Command.h"
+#include "app/run/AllDrivers.h"
+#include "app/run/OpenDevices.h"
 #include "core/acquisition/Recording.h"
 #include "core/bench/Profile.h"
+#include "core/bench/arming/CommandPreview.h"
 #include "drivers/sensor_board/EncoderProfile.h"
 
 namespace tacto::cli {
@@ -20,6 +23,10 @@ void declareFirmwareProfile(QCommandLineParser& parser) {
                       "A recording of the board's sensors, for their rates, channels and units. Without it: 3 axes in "
                       "m/s2 at 4000 Hz, force in N and 8 taxels in Pa at 200 Hz.",
                       "FOLDER"});
+    parser.addOption({"device",
+                      "The board's sensors (sensor:, in place of --recording) or its stimulator (in place of --source, "
+                      "--largest and --step), as the bench has them that the board is to encode for.",
+                      "URI"});
     parser.addOption({"json", "Prints one JSON value."});
 }
 
@@ -27,6 +34,26 @@ std::vector<StreamInfo> usualStreams() {
     return {{StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, 3, 4000, "acceleration"},
             {StreamKind::Force, StreamUnit::Newton, 1, 200, "force"},
             {StreamKind::Taxels, StreamUnit::Pascal, 8, 200, "taxels"}};
+}
+
+/// The devices of --device. Errors: as Registry::open(); InvalidArgument for one that is neither, or given twice over.
+Result<DeviceSet> devicesOf(const QCommandLineParser& parser, const Clock& clock) {
+    std::vector<DeviceUri> uris;
+    for (const auto& text : parser.values("device")) {
+        auto uri = DeviceUri::parse(text.toStdString());
+        if (!uri) return failure(uri);
+        uris.push_back(std::move(*uri));
+    }
+    auto registry = allDrivers()();
+    auto devices =
+        openDevices(registry, uris, {}, {.clock = clock, .declaredLoad = parser.value("load").toStdString()});
+    if (!devices) return devices;
+    if (devices->identities().size() != uris.size() || devices->oscilloscope || devices->massager)
+        return invalid("--device is a sensor: or the address of a stimulator, one of each");
+    for (const auto* option : {"source", "largest", "step"})
+        if (devices->stimulator && parser.isSet(option)) return invalid("--{} and a stimulator are given", option);
+    if (devices->sensor && parser.isSet("recording")) return invalid("--recording and a sensor are given");
+    return devices;
 }
 
 Result<EncoderOutput> outputOptions(const QCommandLineParser& parser) {
@@ -62,6 +89,13 @@ int runFirmwareProfile(const QCommandLineParser& parser) {
     const auto profile = loadProfile(*path);
     if (!profile) return couldNotRun(profile.error());
     output->ceilings = profile->ceilings;
+    const SteadyClock clock;
+    const auto devices = devicesOf(parser, clock);
+    if (!devices) {
+        const bool wrong = devices.error().code == ErrorCode::InvalidArgument;
+        return wrong ? usage("firmware-profile: " + devices.error().message) : couldNotRun(devices.error());
+    }
+    if (devices->stimulator) output->source = devices->stimulator->traits();
     auto streams = usualStreams();
     std::string fingertip;
     if (parser.isSet("recording")) {
@@ -70,6 +104,13 @@ int runFirmwareProfile(const QCommandLineParser& parser) {
         streams = recording->infos();
         fingertip = recording->fingertip;
     }
+    if (devices->sensor) {
+        const auto own = devices->sensor->streams();
+        streams.assign(own.begin(), own.end());
+        fingertip = devices->sensor->identity().serial;
+    }
+    if (const auto another = madeWithAnother(*profile, fingertip); another && !fingertip.empty())
+        say(stderr, "{}\n", *another);
     const auto encoder = encoderProfile(streams, profile->roughness, profile->encoding, *output, fingertip);
     if (!encoder) return failWith(encoder.error());
     const auto content = header ? profileHeader(*encoder, profile->name) : profileBytes(*encoder);
@@ -86,7 +127,7 @@ int runFirmwareProfile(const QCommandLineParser& parser) {
 
 const Command kFirmwareProfile{"firmware-profile",
                                "PROFILE --load OHM --out FILE.{h|bin} [--source KIND] [--largest X] [--step X] "
-                               "[--recording FOLDER] [--json]",
+                               "[--recording FOLDER] [--device URI]... [--json]",
                                "A profile for a board that encodes by itself", declareFirmwareProfile,
                                runFirmwareProfile};
 

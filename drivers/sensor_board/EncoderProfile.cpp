@@ -7,9 +7,12 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <memory>
+#include <type_traits>
+#include <utility>
 
 #include "core/dsp/SampleHistory.h"
 #include "core/dsp/SensorScales.h"
+#include "core/encoding/Rounding.h"
 
 namespace tacto {
 
@@ -98,13 +101,24 @@ void setEncoding(te_profile& to, const EncodingProfile& from) noexcept {
     to.pulse_hz = single(from.train.rate.value());
 }
 
-/// A board knows relative errors only; nothing stated is ± 5 %, as for the gate.
-Result<float> relative(const std::optional<Spread>& stated, std::string_view what) {
+/// A board knows relative errors only, so an absolute one is taken of the `smallest` value that it may set; nothing
+/// stated is ± 5 %, as for the gate.
+float relative(const std::optional<Spread>& stated, double smallest) noexcept {
     const Spread spread = stated.value_or(kUnknownSpread);
-    if (spread.absolute == 0) return single(spread.relative);
-    return fail(ErrorCode::Unsupported,
-                "the stimulator's {} may be off by {} and a share; the board's encoder accepts a share alone", what,
-                spread.absolute);
+    return single(spread.relative + (smallest > 0 ? spread.absolute / smallest : 0));
+}
+
+/// The errors of what comes out, for the profile's trains.
+void setErrors(te_profile& to, const EncoderOutput& from, const EncodingProfile& encoding) noexcept {
+    const auto& stated = from.source.accuracy;
+    const bool current = from.source.drive == Drive::Current;
+    const double least = encoding.amplitudeMin.value() * (1 - kLargestRounding) /
+                         (current ? from.load.nominal.series.value() * 1e-3 : 1);
+    to.amplitude_error = relative(stated.amplitude, least);
+    to.width_error = std::max(relative(stated.phaseWidth, Seconds(encoding.train.phaseWidth).count()),
+                              relative(stated.gap, Seconds(encoding.train.interPhaseGap).count()));
+    to.interval_error = relative(stated.interval, encoding.intervalMin.count());
+    to.rate_error = relative(stated.rate, encoding.train.rate.value());
 }
 
 Result<void> setCeiling(te_profile& to, const Ceiling& ceiling, double amplitudeMax) {
@@ -141,21 +155,26 @@ Result<void> setOutput(te_profile& to, const EncoderOutput& from, const Encoding
         return fail(ErrorCode::Unsupported, "the profile holds the {} constant; the board's encoder holds the voltage",
                     nameOf(encoding.hold));
     }
+    // A board's stimulator is given the profile's widths as they are.
+    DeviceGrid grid = gridOf(source);
+    grid.amplitudeStep = 0;
+    const auto settable = roundToDevice(trainAt(encoding.train, source.drive, source.amplitudeMax), grid);
+    if (!settable) return failure(settable);
+    if (settable->changed()) {
+        return fail(
+            ErrorCode::Unsupported,
+            "the stimulator would make a phase of {:g} us, a gap of {:g} us and {} pulses of the profile's {:g} "
+            "us, {:g} us and {}; a board's encoder changes nothing of them",
+            settable->train.phaseWidth.count(), settable->train.interPhaseGap.count(), settable->train.pulses,
+            encoding.train.phaseWidth.count(), encoding.train.interPhaseGap.count(), encoding.train.pulses);
+    }
     to.current_source = word(source.drive == Drive::Current);
     to.load_low_ohm = single(from.load.min.series.value());
     to.load_ohm = single(from.load.nominal.series.value());
     to.load_high_ohm = single(from.load.max.series.value());
     to.output_step = single(source.amplitudeStep);
     to.output_max = single(source.amplitudeMax);
-    const auto& stated = source.accuracy;
-    const auto width = relative(stated.phaseWidth, "phase width"), gap = relative(stated.gap, "gap");
-    for (const auto& [into, error] :
-         {std::pair{&to.amplitude_error, relative(stated.amplitude, "amplitude")}, std::pair{&to.width_error, width},
-          std::pair{&to.width_error, gap}, std::pair{&to.interval_error, relative(stated.interval, "interval")},
-          std::pair{&to.rate_error, relative(stated.rate, "rate")}}) {
-        if (!error) return failure(error);
-        *into = std::max(*into, *error);
-    }
+    setErrors(to, from, encoding);
     to.ceiling_peak_ma = TE_MAX_PEAK_MA;
     to.ceiling_charge_uc = TE_MAX_CHARGE_UC;
     to.ceiling_rms_ma = TE_MAX_RMS_MA;
@@ -261,70 +280,76 @@ namespace {
 
 struct WordOfProfile {
     const char* name;
-    bool whole;  ///< a whole number; else a float
+    std::size_t at;  ///< bytes from the profile's beginning
+    bool whole;      ///< a whole number; else a float
 };
 
-/// The words of te_profile before its taxels, in order.
-constexpr WordOfProfile kWords[] = {{"layout", true},
-                                    {"hash", true},
-                                    {"acceleration_hz", false},
-                                    {"axes", true},
-                                    {"acceleration_most", false},
-                                    {"force_hz", false},
-                                    {"force_scale", false},
-                                    {"force_offset", false},
-                                    {"force_most", false},
-                                    {"force_newton", true},
-                                    {"taxels_hz", false},
-                                    {"taxels", true},
-                                    {"taxels_most", false},
-                                    {"taxels_pascal", true},
-                                    {"spectral_absolute", true},
-                                    {"taxel_dynamic", true},
-                                    {"band_low_hz", false},
-                                    {"spectral_weight", false},
-                                    {"taxel_weight", false},
-                                    {"spectral_smooth", false},
-                                    {"spectral_rough", false},
-                                    {"taxel_smooth", false},
-                                    {"taxel_rough", false},
-                                    {"smoothing_s", false},
-                                    {"rest_mean_square", false},
-                                    {"contact_area_cm2", false},
-                                    {"pressure_min_pa", false},
-                                    {"pressure_max_pa", false},
-                                    {"amplitude_min_v", false},
-                                    {"amplitude_max_v", false},
-                                    {"interval_min_s", false},
-                                    {"interval_max_s", false},
-                                    {"amplitude_curve", true},
-                                    {"interval_curve", true},
-                                    {"amplitude_beta", false},
-                                    {"interval_beta", false},
-                                    {"swapped", true},
-                                    {"amplitude_ratio", false},
-                                    {"interval_ratio", false},
-                                    {"amplitude_slew_v_s", false},
-                                    {"shape", true},
-                                    {"negative", true},
-                                    {"width_us", false},
-                                    {"gap_us", false},
-                                    {"recharge_ratio", false},
-                                    {"pulses", true},
-                                    {"pulse_hz", false},
-                                    {"current_source", true},
-                                    {"load_low_ohm", false},
-                                    {"load_ohm", false},
-                                    {"load_high_ohm", false},
-                                    {"output_step", false},
-                                    {"output_max", false},
-                                    {"amplitude_error", false},
-                                    {"width_error", false},
-                                    {"interval_error", false},
-                                    {"rate_error", false},
-                                    {"ceiling_peak_ma", false},
-                                    {"ceiling_charge_uc", false},
-                                    {"ceiling_rms_ma", false}};
+// The name of a member is all that a row says: the macro makes text, place and kind of it.
+#define TACTO_WORD(member) \
+    WordOfProfile { #member, offsetof(te_profile, member), std::is_same_v<decltype(te_profile::member), std::uint32_t> }
+constexpr WordOfProfile kWords[] = {
+    TACTO_WORD(layout),
+    TACTO_WORD(hash),
+    TACTO_WORD(acceleration_hz),
+    TACTO_WORD(axes),
+    TACTO_WORD(acceleration_most),
+    TACTO_WORD(force_hz),
+    TACTO_WORD(force_scale),
+    TACTO_WORD(force_offset),
+    TACTO_WORD(force_most),
+    TACTO_WORD(force_newton),
+    TACTO_WORD(taxels_hz),
+    TACTO_WORD(taxels),
+    TACTO_WORD(taxels_most),
+    TACTO_WORD(taxels_pascal),
+    TACTO_WORD(spectral_absolute),
+    TACTO_WORD(taxel_dynamic),
+    TACTO_WORD(band_low_hz),
+    TACTO_WORD(spectral_weight),
+    TACTO_WORD(taxel_weight),
+    TACTO_WORD(spectral_smooth),
+    TACTO_WORD(spectral_rough),
+    TACTO_WORD(taxel_smooth),
+    TACTO_WORD(taxel_rough),
+    TACTO_WORD(smoothing_s),
+    TACTO_WORD(rest_mean_square),
+    TACTO_WORD(contact_area_cm2),
+    TACTO_WORD(pressure_min_pa),
+    TACTO_WORD(pressure_max_pa),
+    TACTO_WORD(amplitude_min_v),
+    TACTO_WORD(amplitude_max_v),
+    TACTO_WORD(interval_min_s),
+    TACTO_WORD(interval_max_s),
+    TACTO_WORD(amplitude_curve),
+    TACTO_WORD(interval_curve),
+    TACTO_WORD(amplitude_beta),
+    TACTO_WORD(interval_beta),
+    TACTO_WORD(swapped),
+    TACTO_WORD(amplitude_ratio),
+    TACTO_WORD(interval_ratio),
+    TACTO_WORD(amplitude_slew_v_s),
+    TACTO_WORD(shape),
+    TACTO_WORD(negative),
+    TACTO_WORD(width_us),
+    TACTO_WORD(gap_us),
+    TACTO_WORD(recharge_ratio),
+    TACTO_WORD(pulses),
+    TACTO_WORD(pulse_hz),
+    TACTO_WORD(current_source),
+    TACTO_WORD(load_low_ohm),
+    TACTO_WORD(load_ohm),
+    TACTO_WORD(load_high_ohm),
+    TACTO_WORD(output_step),
+    TACTO_WORD(output_max),
+    TACTO_WORD(amplitude_error),
+    TACTO_WORD(width_error),
+    TACTO_WORD(interval_error),
+    TACTO_WORD(rate_error),
+    TACTO_WORD(ceiling_peak_ma),
+    TACTO_WORD(ceiling_charge_uc),
+    TACTO_WORD(ceiling_rms_ma),
+};
+#undef TACTO_WORD
 static_assert(sizeof(std::uint32_t) * std::size(kWords) == offsetof(te_profile, taxel_scale));
 static_assert(std::endian::native == std::endian::little);
 
@@ -351,17 +376,19 @@ std::string profileHeader(const te_profile& profile, std::string_view name) {
         shown, [](unsigned char c) { return c < ' ' || c > '~' || c == '*' || c == '/'; }, '_');
     std::string text = fmt::format(
         "/* Written by tactoscope-cli firmware-profile. The profile \"{}\" for the tactile encoder: te_init(&state, "
-        "&tactile_profile). */\n#include \"tactile_encoder.h\"\n\nstatic const struct te_profile tactile_profile = "
+        "&tactile_profile). */\n#include \"tactile_encoder.h\"\n\n#if TE_TAXELS < {}U\n#error \"this profile has {} "
+        "taxels: define TE_TAXELS as that many or more for every file of the encoder\"\n#endif\n\nstatic const struct "
+        "te_profile tactile_profile = "
         "{{\n",
-        shown);
+        shown, profile.taxels, profile.taxels);
     const auto bytes = profileBytes(profile);
-    for (std::size_t i = 0; i < std::size(kWords); ++i) {
+    for (const auto& [member, at, whole] : kWords) {
         float number = 0;
-        std::uint32_t whole = 0;
-        std::memcpy(&number, bytes.data() + 4 * i, 4);
-        std::memcpy(&whole, bytes.data() + 4 * i, 4);
-        text += kWords[i].whole ? fmt::format("    .{} = {}U,\n", kWords[i].name, whole)
-                                : fmt::format("    .{} = {:.9e}F,\n", kWords[i].name, number);
+        std::uint32_t integer = 0;
+        std::memcpy(&number, bytes.data() + at, sizeof number);
+        std::memcpy(&integer, bytes.data() + at, sizeof integer);
+        text += whole ? fmt::format("    .{} = {}U,\n", member, integer)
+                      : fmt::format("    .{} = {:.9e}F,\n", member, number);
     }
     if (profile.taxels > 0) {
         text += fmt::format("    .taxel_scale = {},\n    .taxel_offset = {},\n",

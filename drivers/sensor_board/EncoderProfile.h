@@ -24,7 +24,8 @@ struct EncoderOutput {
 
 /// Returns what the encoder needs, with its hash. `streams` and `serial`: of the board's sensors, for which the
 /// settings' scales hold or do not (StreamScaling). Errors: Unsupported, naming what the board cannot do: a load with a
-/// capacitor, a held charge or energy, a ceiling that it does not judge, more taxels or a faster stream than it has
+/// capacitor, a held charge or energy, a ceiling that it does not judge, a width, gap or number of pulses that the
+/// stimulator cannot set, more taxels or a faster stream than it has
 /// memory for, or more than its own ceilings allow.
 [[nodiscard]] Result<te_profile> encoderProfile(std::span<const StreamInfo> streams, const RoughnessSettings& roughness,
                                                 const EncodingProfile& encoding, const EncoderOutput& output,

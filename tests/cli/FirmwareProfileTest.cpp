@@ -42,6 +42,27 @@ TEST(FirmwareProfile, WritesAHeaderForTheSensorsOfARecording) {
                                      testing::HasSubstr(".acceleration_hz = 0.0"), testing::HasSubstr("default")));
 }
 
+TEST(FirmwareProfile, TakesSensorsAndStimulatorFromTheDevicesOfABench) {
+    const Desk desk;
+    const auto out = (desk.path() / "board.h").string();
+    const auto hashOf = [&](std::vector<std::string> more) {
+        std::vector<std::string> all{"firmware-profile", kShipped, "--load", "1000", "--out", out, "--json"};
+        all.insert(all.end(), more.begin(), more.end());
+        return jsonOf(desk.run(all))["hash"].get<std::string>();
+    };
+    const auto usual = hashOf({});
+    EXPECT_EQ(hashOf({"--device", "sim:finger"}), usual) << "the simulated finger is the usual one";
+    const auto current = hashOf({"--device", "sim:finger", "--device", "sim:stimulator?mode=current&step=0.1mA"});
+    EXPECT_NE(current, usual);
+    EXPECT_THAT(readTextFile(out, 100'000).value(), testing::HasSubstr(".current_source = 1U"));
+    expectRefused(desk.run({"firmware-profile", kShipped, "--load", "1000", "--out", out, "--device", "sim:stimulator",
+                            "--step", "0.1"}),
+                  2, {"--step and a stimulator"});
+    expectRefused(
+        desk.run({"firmware-profile", kShipped, "--load", "1000", "--out", out, "--device", "sim:oscilloscope"}), 2,
+        {"--device is a sensor: or the address of a stimulator"});
+}
+
 TEST(FirmwareProfile, WhatTheBoardCannotDoIsRefused) {
     RecordProperty("hazard", "H1");
     const Desk desk;

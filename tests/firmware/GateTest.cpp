@@ -466,6 +466,28 @@ TEST(EncoderProfile, TravelsAsAHeader) {
     ASSERT_TRUE(made) << made.error().message;
     ASSERT_EQ(made->size(), sizeof(te_profile));
     EXPECT_EQ(std::memcmp(made->data(), &rig.profile, sizeof(te_profile)), 0);
+    EXPECT_THAT(profileHeader(rig.profile, ""),
+                testing::HasSubstr(fmt::format("#if TE_TAXELS < {}U\n#error", rig.profile.taxels)));
+}
+
+TEST(EncoderProfile, TakesAnAbsoluteErrorOfTheSmallestValueThatMayComeOut) {
+    RecordProperty("hazard", "H1");
+    EncoderOutput output;
+    output.source.drive = Drive::Current;
+    output.source.amplitudeMax = 100;
+    output.source.accuracy.amplitude = Spread{0.01, 0.25};   // mA
+    output.source.accuracy.phaseWidth = Spread{0.02, 4e-6};  // s
+    output.source.accuracy.gap = Spread{0, 2e-6};
+    output.source.accuracy.interval = Spread{0, 0.001};
+    output.source.accuracy.rate = Spread{0.001, 0.1};
+    output.load = LoadRange::declared(Load::resistor(Ohms(2000)));
+    const auto made = encoderProfile(kStreams, {}, {}, output);
+    ASSERT_TRUE(made) << made.error().message;
+    // 10 V into 2 kohm, less a rounding of 10 %, are 4.5 mA; 200 us and 100 us; 0.5 s; 100 Hz.
+    EXPECT_FLOAT_EQ(made->amplitude_error, 0.01F + 0.25F / 4.5F);
+    EXPECT_FLOAT_EQ(made->width_error, 0.02F + 4.0F / 200);
+    EXPECT_FLOAT_EQ(made->interval_error, 0.001F / 0.5F);
+    EXPECT_FLOAT_EQ(made->rate_error, 0.001F + 0.1F / 100);
 }
 
 TEST(EncoderProfile, RefusesByNameWhatTheBoardCannotDo) {
@@ -494,12 +516,21 @@ TEST(EncoderProfile, RefusesByNameWhatTheBoardCannotDo) {
     output.load = LoadRange::declared(Load::skin(Ohms(200), Ohms(10'000), Nanofarads(50)));
     EXPECT_THAT(refusal(), HasSubstr("a resistance"));
     output.load = LoadRange::declared(Load::resistor(Ohms(1000)));
-    output.source.accuracy.amplitude = Spread{0.01, 0.5};
-    EXPECT_THAT(refusal(), HasSubstr("amplitude may be off by 0.5"));
+    output.source.accuracy.amplitude = Spread{0.01, 5};
+    EXPECT_THAT(refusal(), HasSubstr("errors of at most 20 %"));
     output.source.accuracy = {};
     auto fast = kStreams;
     fast[0].rate_hz = 8000;
     EXPECT_THAT(refusal(fast), HasSubstr("4007 Hz"));
+    output.source.widthStep = Micros(30);
+    EXPECT_THAT(refusal(), HasSubstr("a phase of 180 us, a gap of 90 us"));
+    output.source.widthStep = Micros(1);
+    output.source.widthMin = Micros(300);
+    EXPECT_THAT(refusal(), HasSubstr("300 to 4000"));
+    output.source.widthMin = Micros(10);
+    encoding.train.pulses = 5;
+    output.source.pulsesMax = 4;
+    EXPECT_THAT(refusal(), HasSubstr("pulses"));
 }
 
 TEST(EncoderGate, AStopLasts) {
