@@ -1,0 +1,251 @@
+// A whole board as its maker compiles it for a Cortex-M, under QEMU behind a pseudo-terminal: it passes what an
+// emulated board passes there, and its encoder makes of its samples what the same code makes of them here, to the last
+// bit.
+#include <cmath>
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <map>
+#include <thread>
+#include <unistd.h>
+
+#include "core/devices/Device.h"
+#include "drivers/sciencemode/TtyTransport.h"
+#include "drivers/sensor_board/Fields.h"
+#include "drivers/sensor_board/Messages.h"
+#include "drivers/sensor_board/UsbSensorBoards.h"
+#include "resources/firmware/sensor_board/tsb_board.h"
+#include "tests/drivers/conformance/SensorConformance.h"
+#include "tests/drivers/sensor_board/BoardOnPty.h"
+#include "tests/firmware/BoardOnQemu.h"
+#include "tests/support/InTime.h"
+#include "tests/support/OtherProgram.h"
+#include "tests/support/Refused.h"
+
+namespace tacto::test {
+namespace {
+
+using namespace sensorboard;
+
+constexpr const char* kNoBoard =
+    "gcc-arm-none-eabi, libnewlib-arm-none-eabi and qemu-system-arm are not all here: the board was not run as a "
+    "microcontroller runs it";
+
+struct Told {
+    std::uint8_t type = 0;
+    std::vector<std::uint8_t> payload;
+};
+
+/// A host that speaks to a board by frames alone.
+class PlainHost {
+public:
+    explicit PlainHost(const std::string& path) : line_(accepted(sciencemode::TtyTransport::open(path))) {}
+
+    void send(std::uint8_t version, std::uint8_t type, std::initializer_list<std::uint8_t> payload) {
+        tsb_writer writer{};
+        std::array<std::uint8_t, TSB_FRAME_MOST> frame{};
+        tsb_begin(&writer, frame.data(), version, type);
+        for (const auto byte : payload) tsb_put_u8(&writer, byte);
+        accepted(line_->write(std::span(frame).first(tsb_seal(&writer)), Seconds(1)));
+    }
+    /// Adds all frames to `told` until one is of `type`, or for `most`.
+    [[nodiscard]] bool hear(std::uint8_t type, std::vector<Told>& told, Seconds most = Seconds(20)) {
+        std::array<std::uint8_t, 4096> bytes{};
+        const auto end = std::chrono::steady_clock::now() + toInstant(most);
+        while (std::chrono::steady_clock::now() < end) {
+            const auto read = line_->read(bytes, Seconds(0.1));
+            std::span<const std::uint8_t> left = std::span(bytes).first(read.value_or(0));
+            bool found = false;
+            while (const auto frame = decoder_.take(left)) {
+                told.push_back({frame->type, {frame->payload.begin(), frame->payload.end()}});
+                found = found || frame->type == type;
+            }
+            if (found) return true;
+        }
+        return false;
+    }
+    [[nodiscard]] const LineCounts& counts() const { return decoder_.counts(); }
+
+private:
+    std::unique_ptr<Transport> line_;
+    FrameDecoder decoder_;
+};
+
+/// A board on a machine of QEMU; its clock is that of this computer.
+class BoardOnQemu {
+public:
+    BoardOnQemu()
+        : qemu_({TACTO_ARM_QEMU, "-M", "mps2-an386", "-kernel", TACTO_WHOLE_BOARD, "-nographic", "-monitor", "none",
+                 "-serial", "pty"}) {
+        const auto said = accepted(toResult(qemu_.readLine()));
+        const auto begin = said.find("/dev/pts/");
+        path_ = said.substr(begin, said.find(' ', begin) - begin);
+        // QEMU looks once a second whether anybody holds the terminal; until then it hears nothing.
+        held_ = open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
+        PlainHost host(path_);
+        std::vector<Told> told;
+        for (int asked = 0; asked < 100 && told.empty(); ++asked) {
+            host.send(TSB_VERSION, TSB_HELLO, {1});
+            static_cast<void>(host.hear(TSB_IDENTITY, told, Seconds(0.2)));
+        }
+    }
+    ~BoardOnQemu() { close(held_); }
+    BoardOnQemu(const BoardOnQemu&) = delete;
+    BoardOnQemu& operator=(const BoardOnQemu&) = delete;
+    [[nodiscard]] const std::string& path() const noexcept { return path_; }
+
+private:
+    static Result<std::string> toResult(const std::optional<std::string>& line) {
+        if (line && line->find("/dev/pts/") != std::string::npos) return *line;
+        return fail(ErrorCode::Io, "QEMU says \"{}\"; the path of its terminal was expected", line.value_or(""));
+    }
+    HostProcess qemu_;
+    std::string path_;
+    int held_ = -1;
+};
+
+/// Any board behind a pseudo-terminal, opened by its path.
+template <class Board>
+class TerminalRig final : public SensorRig {
+public:
+    template <class... Arguments>
+    explicit TerminalRig(Arguments&&... arguments)
+        : board_(std::make_unique<Board>(std::forward<Arguments>(arguments)...)) {
+        accepted(
+            driver_->open(*DeviceUri::parse("sensor:?emulated=yes&tty=" + board_->path()), {}, {clock_}, devices_));
+    }
+    TactileSensor& device() override { return *devices_.sensor; }
+    const Clock& clock() const override { return clock_; }
+    void wait(Seconds duration) override { std::this_thread::sleep_for(toInstant(duration)); }
+    bool unplug() override {
+        board_.reset();
+        return true;
+    }
+
+private:
+    SteadyClock clock_;
+    // Keeps the computer's own USB out of this test.
+    std::unique_ptr<Driver> driver_ = makeSensorBoardDriver(
+        makeUsbSensorBoards([] { return fail(ErrorCode::Io, "no USB here"); }, sciencemode::TtyTransport::open));
+    std::unique_ptr<Board> board_;
+    DeviceSet devices_;
+};
+
+std::vector<SensorKind> kinds() {
+    static const SteadyClock clock;
+    std::vector<SensorKind> all{{"Emulated", [] { return std::make_unique<TerminalRig<BoardOnPty>>(clock); }}};
+    if (std::string_view(TACTO_WHOLE_BOARD).empty()) return all;
+    all.push_back({"CortexM4F", [] { return std::make_unique<TerminalRig<BoardOnQemu>>(); }});
+    return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(BoardOnTerminal, SensorConformance, testing::ValuesIn(kinds()),
+                         [](const testing::TestParamInfo<SensorKind>& of) { return of.param.name; });
+
+/// The encoder here, fed with the blocks that the board sent.
+class EncoderHere {
+public:
+    EncoderHere() { EXPECT_EQ(te_init(state_.get(), &profile_), TE_ACCEPTED); }
+    /// A DATA frame of one of the board's streams: acceleration, taxels, force.
+    void take(const std::vector<std::uint8_t>& payload) {
+        struct Stream {
+            te_stream kind;
+            std::size_t columns;
+            float scale;
+        };
+        constexpr std::array<Stream, 3> kStreams{
+            {{TE_ACCELERATION, 3, 0.005F}, {TE_TAXEL_ARRAY, 8, 2}, {TE_FORCE, 1, 0.0005F}}};
+        FieldReader in(payload);
+        const auto& stream = kStreams.at(in.u8());
+        const auto count = in.u8();
+        static_cast<void>(in.u64());  // sequence and index
+        const auto first_ns = static_cast<std::int64_t>(in.u64()) * 1000;
+        const auto step_ns = static_cast<std::int32_t>(in.u32());
+        std::vector<float> values;
+        for (std::size_t i = 0; i < count * stream.columns; ++i) {
+            const int low = in.u8(), high = in.u8();
+            values.push_back(stream.scale * static_cast<float>(static_cast<std::int16_t>(low | high << 8)) + 0.0F);
+        }
+        EXPECT_TRUE(in.whole());
+        te_samples(state_.get(), stream.kind, first_ns, step_ns, values.data(), count);
+        for (te_reading frame{}; te_frame(state_.get(), &frame) != 0;) frames.push_back(frame);
+    }
+    std::vector<te_reading> frames;
+
+private:
+    const te_profile profile_ = profileOnQemu();
+    std::unique_ptr<te_state> state_ = std::make_unique<te_state>();
+};
+
+void expectSameBits(FieldReader& in, const te_reading& expected) {
+    EXPECT_EQ(in.u64(), static_cast<std::uint64_t>(expected.t_ns / 1000));
+    const auto flags = static_cast<std::uint32_t>(in.u8() + in.u8() * 256);
+    EXPECT_EQ(flags, expected.contact + 2 * expected.sliding + 4 * expected.sliding_assumed);
+    static_cast<void>(in.u32());
+    for (const float value : {expected.R, expected.P, expected.pressure_pa, expected.h, expected.v})
+        EXPECT_EQ(in.u32(), std::bit_cast<std::uint32_t>(value));
+    EXPECT_TRUE(in.whole());
+}
+
+void expectWithin(FieldReader& in, const te_profile& profile, std::uint64_t& onset_us) {
+    const auto onset = in.u64();
+    EXPECT_GE(onset, onset_us);
+    const double interval_s = in.f32(), command = in.f32(), amplitude = in.f32();
+    EXPECT_GE(interval_s, double{profile.interval_min_s});
+    onset_us = onset + static_cast<std::uint64_t>(interval_s * 0.5e6);
+    EXPECT_EQ(command, amplitude) << "a voltage without steps";
+    EXPECT_GE(amplitude, double{profile.amplitude_min_v});
+    EXPECT_LE(amplitude, double{profile.amplitude_max_v});
+    EXPECT_EQ(in.u8(), profile.shape);
+    EXPECT_EQ(in.u8(), profile.negative);
+    EXPECT_EQ(in.f32(), double{profile.width_us});
+    EXPECT_EQ(in.f32(), double{profile.gap_us});
+    EXPECT_EQ(in.f32(), double{profile.recharge_ratio});
+    EXPECT_EQ(in.u32(), profile.pulses);
+    EXPECT_EQ(in.f32(), double{profile.pulse_hz});
+    EXPECT_TRUE(in.whole());
+}
+
+}  // namespace
+
+TEST(BoardOnQemu, EncodesItsSamplesToTheBitsThatTheSameCodeMakesHere) {
+    if (std::string_view(TACTO_WHOLE_BOARD).empty()) GTEST_SKIP() << kNoBoard;
+    RecordProperty("hazard", "H7");
+    BoardOnQemu board;
+    PlainHost host(board.path());
+    std::vector<Told> told;
+    host.send(TSB_VERSION_2, TSB_SET_ENCODER, {2, TSB_MODE_ENCODE});
+    ASSERT_IN_TIME(host.hear(TSB_ENCODER, told));
+    const te_profile profile = profileOnQemu();
+    FieldReader encoder(told.back().payload);
+    EXPECT_EQ(encoder.u8(), 2);
+    EXPECT_EQ(encoder.u8(), TSB_MODE_ENCODE);
+    EXPECT_EQ(encoder.u8(), TE_ACCEPTED);
+    EXPECT_EQ(encoder.u32(), TE_LAYOUT);
+    EXPECT_EQ(encoder.u32(), profile.hash);
+    told.clear();
+    host.send(TSB_VERSION, TSB_START, {3});
+    for (int trains = 0; trains < 3; ++trains) ASSERT_IN_TIME(host.hear(TSB_TRAIN, told));
+    host.send(TSB_VERSION, TSB_STOP, {4});
+    ASSERT_IN_TIME(host.hear(TSB_DONE, told));
+
+    EncoderHere here;
+    std::map<int, std::uint32_t> seen;
+    std::uint64_t onset_us = 0;
+    for (const auto& one : told) {
+        FieldReader in(one.payload);
+        const auto number = seen[one.type]++;
+        if (one.type == TSB_DATA) here.take(one.payload);
+        if (one.type != TSB_READING && one.type != TSB_TRAIN && one.type != TSB_SILENT) continue;
+        EXPECT_EQ(in.u32(), number);
+        if (one.type == TSB_TRAIN) expectWithin(in, profile, onset_us);
+        if (one.type != TSB_READING) continue;
+        ASSERT_LT(number, here.frames.size());
+        expectSameBits(in, here.frames[number]);
+    }
+    EXPECT_EQ(seen[TSB_READING], here.frames.size());
+    EXPECT_GT(seen[TSB_READING], 60U);
+    EXPECT_EQ(host.counts().bad(), 0U);
+}
+
+}  // namespace tacto::test
