@@ -5,6 +5,7 @@
 #include <qcustomplot.h>
 
 #include "app/gui/theme/Text.h"
+#include "app/gui/theme/Theme.h"
 #include "app/report/SessionReport.h"
 #include "core/base/JsonText.h"
 
@@ -13,6 +14,23 @@ namespace tacto::gui {
 namespace {
 
 constexpr int kMinSheetLines = 10;  // height of a readable plot in lines of text
+
+/// Turns dark on light into light on dark, between the theme's ground and its text. A colour keeps its hue: only its
+/// lightness in HSL is turned over.
+void darken(QImage& drawn) {
+    const auto ground = colours().base.rgb(), text = colours().text.rgb();
+    const auto between = [](int low, int high, int part) { return low + (high - low) * part / 255; };
+    for (int y = 0; y < drawn.height(); ++y) {
+        auto* line = reinterpret_cast<QRgb*>(drawn.scanLine(y));
+        for (int x = 0; x < drawn.width(); ++x) {
+            const int r = qRed(line[x]), g = qGreen(line[x]), b = qBlue(line[x]);
+            const int turned = 255 - std::max({r, g, b}) - std::min({r, g, b});
+            line[x] =
+                qRgb(between(qRed(ground), qRed(text), r + turned), between(qGreen(ground), qGreen(text), g + turned),
+                     between(qBlue(ground), qBlue(text), b + turned));
+        }
+    }
+}
 
 }  // namespace
 
@@ -27,12 +45,19 @@ void SheetView::paintEvent(QPaintEvent* /*event*/) {
     if (!sheet_) return;
     const auto size = sheet_->size();
     const double scale = std::min(double(width()) / size.width(), double(height()) / size.height());
-    QCPPainter painter(this);
-    painter.setRenderHint(QPainter::Antialiasing);
-    const QRectF paper(0, 0, size.width() * scale, size.height() * scale);
-    painter.fillRect(paper, Qt::white);  // white paper, as in print
-    painter.scale(scale, scale);
-    sheet_->paint(painter);
+    const QSizeF paper(size.width() * scale, size.height() * scale);
+    const double ratio = devicePixelRatioF();
+    QImage drawn((paper * ratio).toSize(), QImage::Format_RGB32);
+    drawn.setDevicePixelRatio(ratio);
+    drawn.fill(Qt::white);  // paper, as in print
+    {
+        QCPPainter painter(&drawn);
+        painter.setRenderHint(QPainter::Antialiasing);
+        painter.scale(scale, scale);
+        sheet_->paint(painter);
+    }
+    if (currentTheme() == Theme::Dark) darken(drawn);
+    QPainter(this).drawImage(QPointF(), drawn);
 }
 
 SessionFigure figureIn(const std::vector<SessionRow>& reportItems, const SessionReader& reader) {

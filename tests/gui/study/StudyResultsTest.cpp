@@ -126,6 +126,23 @@ TEST_F(StudyResultsTest, EveryFigureIsShownAndLooksRight) {
     looksRight(page, "study-results-encodings", {QSize(1280, 720), QSize(1920, 1080)});
     chooseFigure("psychometric function");
     looksRight(page, "study-results-function", {QSize(1280, 720), QSize(1920, 1080)});
+    auto* sheet = results().findChild<gui::SheetView*>();
+    for (const auto theme : {gui::Theme::Light, gui::Theme::Dark}) {
+        gui::applyTheme(theme);
+        const auto drawn = sheet->grab().toImage();
+        double darkest = 255, lightest = 0, mean = 0;
+        for (int y = 0; y < drawn.height(); ++y) {
+            for (int x = 0; x < drawn.width(); ++x) {
+                const double light = QColor(drawn.pixel(x, y)).lightness();
+                darkest = std::min(darkest, light);
+                lightest = std::max(lightest, light);
+                mean += light / (double(drawn.width()) * drawn.height());
+            }
+        }
+        EXPECT_EQ(mean < 80, theme == gui::Theme::Dark) << mean;
+        EXPECT_GT(lightest - darkest, 150) << "and its text stands out";
+    }
+    gui::applyTheme(gui::Theme::Light);
     click(*results().findChild<QPushButton*>("backFromResults"));
     EXPECT_TRUE(page.list().isVisible());
 }
