@@ -110,6 +110,10 @@ public:
     /// True if a run closed the bench and nothing was opened or closed since: openAgain() opens the same devices.
     [[nodiscard]] bool closedByRun() const noexcept { return closedByRun_.has_value(); }
     void openAgain();
+    /// Returns the addresses with which the bench under Live was opened last; empty: none was.
+    [[nodiscard]] std::vector<DeviceUri> liveDevices() const {
+        return lastLive_ ? lastLive_->uris : std::vector<DeviceUri>();
+    }
     /// Returns the text that the operator confirms before this load is armed (`request.confirmed`). Empty: no bench.
     [[nodiscard]] std::string confirmationOf(const Load& load) const;
     /// Arms the bench. The window takes two deliberate steps; `request.operatorConfirmed` says that both were taken.

@@ -7,6 +7,7 @@
 #include <QScrollBar>
 #include <QShortcut>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "app/gui/calibrate/CertificatePart.h"
 #include "app/gui/runner/ProcedurePath.h"
@@ -128,7 +129,10 @@ void ProtocolWorkspace::connectPath() {
 void ProtocolWorkspace::connectPages() {
     connect(&pages_->form(), &FieldForm::edited, this, &ProtocolWorkspace::judge);
     pages_->wiring().checkWith([this](const std::vector<DeviceUri>& uris) { return controller_.allVirtual(uris); });
-    connect(&pages_->wiring(), &WiringPanel::edited, this, &ProtocolWorkspace::judge);
+    connect(&pages_->wiring(), &WiringPanel::edited, this, [this] {
+        judge();
+        showBench();
+    });
     connect(&pages_->views(), &RunViews::scriptErrorChosen, this,
             [this](int line, const QString& why) { edit(source_, line, why); });
     connect(&pages_->views(), &RunViews::plotOnlyWanted, this, &ProtocolWorkspace::plotOnlyWanted);
@@ -373,7 +377,12 @@ void ProtocolWorkspace::ended(const std::shared_ptr<const FinishedRun>& run) {
 /// Offers to open the bench again after the run that closed it.
 void ProtocolWorkspace::showBench() {
     const auto activity = controller_.activity();
-    panel_->setBench(activity == Activity::Live, last_ && activity == Activity::Closed && controller_.closedByRun());
+    const auto faulty = [](const auto& uris) { return std::ranges::any_of(uris, simulatesFault); };
+    const auto devices = devicesOf(pages_->wiring().devices()).value_or(std::vector<DeviceUri>());
+    const auto open = activity != Activity::Live                              ? RunPanel::Open::None
+                      : faulty(controller_.liveDevices()) && !faulty(devices) ? RunPanel::Open::WithFaults
+                                                                              : RunPanel::Open::Bench;
+    panel_->setBench(open, last_ && activity == Activity::Closed && controller_.closedByRun());
 }
 
 void ProtocolWorkspace::goOn(NextStep next) {

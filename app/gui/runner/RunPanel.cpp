@@ -152,15 +152,16 @@ void RunPanel::sayHowFar(const QString& format, const QString& left) {
 }
 
 void RunPanel::sayLeft() {
-    const auto more =
-        running_ ? tr("Esc ends the run; what was recorded is kept.")
-        : benchOpen_
-            ? tr("Running closes the open bench and opens it again afterwards; faults set in it are not the run’s.")
-            : QString();
+    const auto more = running_                   ? tr("Esc ends the run; what was recorded is kept.")
+                      : benchOpen_ == Open::None ? QString()
+                      : benchOpen_ == Open::Bench
+                          ? tr("Running closes the open bench and opens it again afterwards.")
+                          : tr("Running closes the open bench and opens it again afterwards. Its "
+                               "simulated faults are not in the run: choose them under Wiring.");
     left_->setText(more.isEmpty() ? howLong_ : howLong_ + '\n' + more);
 }
 
-void RunPanel::setBench(bool open, bool closedByRun) {
+void RunPanel::setBench(Open open, bool closedByRun) {
     benchOpen_ = open;
     sayLeft();
     for (QWidget* part : {static_cast<QWidget*>(closed_), static_cast<QWidget*>(openAgain_)})

@@ -51,8 +51,10 @@ public:
     void show(const ScriptProgress* progress, bool paused, bool waiting);
     /// `benchTime`: the time that passed on a simulated bench, which has its own clock.
     void end(bool early, std::optional<Seconds> benchTime = {});
-    /// Sets whether a bench is open, which a run would close, and whether a run closed it, so it can be opened again.
-    void setBench(bool open, bool closedByRun);
+    enum class Open { None, Bench, WithFaults };
+    /// Sets whether a bench is open, which a run would close, maybe with simulated faults that the run would not have;
+    /// and whether a run closed it, so it can be opened again.
+    void setBench(Open open, bool closedByRun);
     /// Puts the controls in one line, for a path shown as a row; the owner then places words().
     void setAcross(bool across);
     /// Returns the widget with the obstacle, the question and their buttons.
@@ -93,7 +95,7 @@ private:
     ScriptProgress progress_;
     QString said_;
     QString howLong_;  // time left or time taken, as text
-    bool benchOpen_ = false;
+    Open benchOpen_ = Open::None;
     int line_ = 0;
     bool ready_ = false;
     bool running_ = false;

@@ -216,6 +216,21 @@ TEST_F(Workspace, TheReportStandsBesideTheResult) {
     shown->close();
 }
 
+TEST_F(Workspace, ARunSaysThatTheFaultsOfTheOpenBenchAreNotItsOwn) {
+    RecordProperty("hazard", "H9");
+    open("separability");
+    ASSERT_IN_TIME(ready());
+    gui::LiveOrder order;
+    order.uris.push_back(*DeviceUri::parse("sim:stimulator?fault=open@900s"));
+    order.uris.push_back(*DeviceUri::parse("sim:"));
+    order.profile = controller.profile();
+    controller.openLive(order);
+    ASSERT_IN_TIME(comesTrue([this] { return controller.activity() == gui::Activity::Live; }));
+    EXPECT_THAT(says("timeLeft").toStdString(), HasSubstr("simulated faults are not in the run"));
+    type("devices", "sim:stimulator?fault=short@2s sim:");
+    EXPECT_THAT(says("timeLeft").toStdString(), testing::Not(HasSubstr("faults")));
+}
+
 TEST_F(Workspace, ARunSaysThatItClosesTheBenchAndOpensItAgain) {
     RecordProperty("hazard", "H12");
     open("separability");
