@@ -342,6 +342,19 @@ void sharePrefix(const std::vector<QString*>& cells) {
     }
 }
 
+void useOneUnit(const std::vector<QString*>& cells) {
+    std::vector<FigureCell> figures;
+    const FigureCell* largest = nullptr;
+    for (auto* cell : cells)
+        if (auto figure = figureCell(*cell)) figures.push_back(*std::move(figure));
+    for (const auto& figure : figures)
+        if (largest == nullptr || figure.size() > largest->size()) largest = &figure;
+    for (const auto& figure : figures) {
+        bool padded = false;
+        if (figure.base == largest->base) *figure.text = figure.in(largest->exponent, padded);
+    }
+}
+
 void sharePrefix(QStringList& cells) {
     std::vector<QString*> all;
     for (auto& cell : cells) all.push_back(&cell);

@@ -79,6 +79,9 @@ struct ColumnFormat {
 /// cells with two units, do not change.
 void sharePrefix(const std::vector<QString*>& cells);
 void sharePrefix(QStringList& cells);
+/// Gives all figures of the largest one's unit its prefix, however small they are: "2 mV" beside "40 V" becomes
+/// "0.002 V".
+void useOneUnit(const std::vector<QString*>& cells);
 
 /// True for a figure in a table cell: "5.03 mA", "± 200 mV", "−0.3 ± 1.2 %", "40.12, s.d. 0.46 V".
 [[nodiscard]] bool isFigure(const QString& text);

@@ -164,8 +164,10 @@ TableBlock tableOf(const ResultTable& source, const nlohmann::json& records, con
     TableBlock table;
     table.caption = caption;
     table.rows.resize(records.size());
-    for (const auto& column : source.columns) {
-        auto text = columnText(column, records);
+    auto texts = columnTexts(source.columns, records);
+    for (std::size_t c = 0; c < texts.size(); ++c) {
+        const auto& column = source.columns[c];
+        auto& text = texts[c];
         const bool known = std::ranges::any_of(text.cells, [](const QString& cell) { return cell != u"–"; });
         if (!known && !records.empty()) continue;  // omits a column that is empty in every row
         if (column.as == ResultColumn::As::Text) sharePrefix(text.cells);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "app/report/NumberText.h"
 #include "core/analysis/identification/IdentificationText.h"
@@ -362,6 +363,27 @@ ColumnText columnText(const ResultColumn& column, const json& records) {
     ColumnText out{titleOf(column), {}, column.as == As::Chance || column.as == As::Freedom};
     for (const auto& record : records) out.cells << wordsText(column.as, memberAt(record, column.at));
     return out;
+}
+
+std::vector<ColumnText> columnTexts(const std::vector<ResultColumn>& columns, const json& records) {
+    std::vector<ColumnText> all;
+    std::map<std::string, std::vector<std::size_t>> alike;  // the member that states the unit: columns in that unit
+    for (const auto& column : columns) {
+        if ((column.as == As::Number || column.as == As::Spread) && column.unit.starts_with('@'))
+            alike[column.unit.substr(1)].push_back(all.size());
+        all.push_back(columnText(column, records));
+    }
+    for (const auto& [unit, inIt] : alike) {
+        std::set<json> units;
+        for (const auto& record : records) units.insert(memberAt(record, unit));
+        if (units.size() < 2) continue;  // the columns have one prefix each
+        for (qsizetype row = 0; row < qsizetype(records.size()); ++row) {
+            std::vector<QString*> cells;
+            for (const auto c : inIt) cells.push_back(&all[c].cells[row]);
+            useOneUnit(cells);
+        }
+    }
+    return all;
 }
 
 std::vector<ResultTable> tablesIn(const nlohmann::json& results) {

@@ -17,6 +17,10 @@ struct ColumnText {
     bool right = false;
 };
 [[nodiscard]] ColumnText columnText(const ResultColumn& column, const nlohmann::json& records);
+/// Returns the columns of a table. Where its records have units of their own, which differ, all numbers of one record
+/// in its unit have the prefix of the largest: "0.500 V" beside "40.00 V".
+[[nodiscard]] std::vector<ColumnText> columnTexts(const std::vector<ResultColumn>& columns,
+                                                  const nlohmann::json& records);
 
 /// A table of Confusion; without rows if the results have none, or have a different number of names.
 struct CountsText {

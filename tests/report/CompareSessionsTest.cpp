@@ -258,6 +258,33 @@ TEST(CompareSessions, AnyResultsOfAScriptAreComparedOrLeftOut) {
     }
 }
 
+TEST(CompareSessions, EachRowHasOneUnitInAllItsCells) {
+    RecordProperty("hazard", "H9");
+    SessionComparison compared;
+    compared.quantities = {{"Amplitude", "V", 40, 0.5, 0.02},     {"Interval", "s", 0.5, 0.0123, 0.004},
+                           {"Imbalance", "V", 0.02, 0.021, kNaN}, {"Onset", "s", 2, 2.0000004, 1e-6},
+                           {"Charge", "C", 2e-6, 1.9e-9, 3e-10},  {"R", "", 0.5, 0.6, 0.01}};
+    const auto written = toJson(compared);
+    const auto tables = tablesOf(written);
+    const auto table = std::ranges::find_if(tables, [](const auto& each) { return each.title.starts_with("Quantit"); });
+    ASSERT_NE(table, tables.end());
+    const auto texts = columnTexts(table->columns, rowsOf(*table, written));
+    const char* units[] = {"V", "s", "mV", "s", "µC", ""};
+    for (qsizetype row = 0; row < std::ssize(units); ++row) {
+        for (std::size_t column = 1; column <= 3; ++column) {
+            const auto cell = QString(texts[column].cells[row]).replace(QChar(0x202f), ' ').toStdString();
+            const std::string unit = units[row];
+            EXPECT_TRUE(unit.empty()
+                            ? cell.find_first_not_of("0123456789. ±−") == std::string::npos
+                            : cell.ends_with(" " + unit) || cell.find(" " + unit + " (U unknown)") != cell.npos)
+                << cell << " in " << unit;
+        }
+    }
+    const auto difference = [&](qsizetype row) { return QString(texts[3].cells[row]).remove(QChar(0x202f)); };
+    EXPECT_EQ(difference(0), QStringLiteral("−39.500 ± 0.020V"));
+    EXPECT_EQ(difference(3), QStringLiteral("0.0000004 ± 0.0000010s"));
+}
+
 TEST(CompareSessions, TheTablesAreOneKindForWindowAndTerminal) {
     auto a = session({{"accuracy", 0.98}}), b = session({{"accuracy", 0.71}});
     b.about.seed = 8;

@@ -101,9 +101,9 @@ void fillRecordTable(QTableWidget& table, const std::vector<ResultColumn>& colum
     table.clear();
     table.setColumnCount(int(columns.size()));
     table.setRowCount(int(records.size()));
+    const auto texts = columnTexts(columns, records);
     for (int c = 0; c < int(columns.size()); ++c) {
-        const auto& column = columns[std::size_t(c)];
-        const auto text = columnText(column, records);
+        const auto& text = texts[std::size_t(c)];
         auto* header = new QTableWidgetItem(text.right ? inLines(text.header) : text.header);
         header->setTextAlignment((text.right ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
         table.setHorizontalHeaderItem(c, header);
