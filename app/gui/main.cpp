@@ -52,9 +52,9 @@ int main(int argc, char** argv) {
     window.show();
     const bool opens = !started.file.isEmpty();
     if (opens) window.openFile(started.file);
-    if (QSettings().value("tourDone").toBool())
+    if (opens || QSettings().value("tourDone").toBool())
         window.askForDay(true);
-    else if (!opens)
-        window.beginTour();
+    else
+        window.beginTour();  // which asks when it ends
     return QApplication::exec();
 }

@@ -59,10 +59,12 @@ WelcomeTour::WelcomeTour(MainWindow& window) : QObject(&window), window_(window)
         newest_ = QString::fromStdString(run->result.session.string());
     });
     connect(tour_, &Tour::stepped, this, [](int step) { QSettings().setValue("tourStep", step); });
-    connect(tour_, &Tour::ended, this, [](bool finished) {
+    connect(tour_, &Tour::ended, this, [this](bool finished) {
         QSettings settings;
+        const bool first = !settings.value("tourDone").toBool();
         settings.setValue("tourDone", true);
         if (finished) settings.remove("tourStep");
+        if (first) window_.askForDay(true);  // every other start asks at once
     });
 }
 
