@@ -91,19 +91,18 @@ QWidget* StudyPage::buildNone() {
     column->addWidget(trouble_);
     auto* row = new QHBoxLayout;
     row->setSpacing(8);
-    auto* open = pageButton(tr("Open a study…"), "openStudy", tr("By its folder, which holds study.json."), page);
-    makePrimary(*open);
-    auto* create =
+    open_ = pageButton(tr("Open a study…"), "openStudy", tr("By its folder, which holds study.json."), page);
+    create_ =
         pageButton(tr("New study…"), "newStudyWanted", tr("Its approval and settings first, then a passphrase."), page);
-    for (auto* button : {open, create}) row->addWidget(button);
+    for (auto* button : {open_, create_}) row->addWidget(button);
     row->addStretch();
     column->addLayout(row);
     recent_ = new QVBoxLayout;
     column->addLayout(recent_);
     column->addStretch();
     showRecent();
-    connect(open, &QPushButton::clicked, this, &StudyPage::chooseFolder);
-    connect(create, &QPushButton::clicked, this, [this] {
+    connect(open_, &QPushButton::clicked, this, &StudyPage::chooseFolder);
+    connect(create_, &QPushButton::clicked, this, [this] {
         say({});
         new_->clear();
         pages_->setCurrentIndex(kNew);
@@ -132,6 +131,9 @@ void StudyPage::showRecent() {
         connect(button, &QPushButton::clicked, this, [this, folder] { open(folder); });
         recent_->addWidget(button, 0, Qt::AlignLeft);
     }
+    const bool any = recent_->count() > 0;  // without a study there is nothing to open yet
+    makePrimary(*open_, any);
+    makePrimary(*create_, !any);
 }
 
 void StudyPage::chooseFolder() {

@@ -42,6 +42,8 @@ private:
     OpenStudy& study_;
     PageStack* pages_;
     NewStudyPage* new_;
+    QPushButton* open_ = nullptr;
+    QPushButton* create_ = nullptr;
     QVBoxLayout* recent_ = nullptr;
     StudyList* list_ = nullptr;
     StudyResults* results_ = nullptr;
