@@ -69,6 +69,7 @@ constexpr std::pair<const char*, const char*> kTriedByAnother[] = {
     {"CloseQuestion", "whether a run is to end: the same box as for a script that is not saved"},
     {"StudyList", "releasing a study after a serious event: the same frame as for the event"},
     {"StudyList", "whether to go back to an older ledger: the same frame as for a participant who leaves"},
+    {"PilotWorkspace", "where to export a rehearsal: the same question as for a study's results"},
     {"ReportView", "where to save a report: the same question as for a plot"},
     {"StudyResults", "where to save a figure: the same question as for a plot"},
     {"StudyResults", "where to save all figures: the same question as for a plot"},

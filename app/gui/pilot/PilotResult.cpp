@@ -123,6 +123,9 @@ PilotResult::PilotResult(QWidget* parent)
       back_(pageButton({}, "backFromResult", {}, this)),
       report_(pageButton(tr("Report"), "reportOfResult",
                          tr("Draws the report with this session, to print, save or find it."), this)),
+      export_(pageButton(tr("Export…"), "exportOfResult",
+                         tr("The rehearsal’s results without codes and dates, as a BIDS dataset in a new folder."),
+                         this)),
       place_(pageButton(tr("Open the folder"), "openFolder", {}, this)) {
     setObjectName("pilotResult");
     auto* all = columnIn(*this, 0);
@@ -160,12 +163,13 @@ PilotResult::PilotResult(QWidget* parent)
         lines->addLayout(part, stretch);
     };
     add({goOn_, another_, back_}, 0);
-    add({report_, place_}, 1);
+    add({report_, export_, place_}, 1);
     row->addWidget(holder, 1);
     connect(goOn_, &QPushButton::clicked, this, &PilotResult::goOnWanted);
     connect(another_, &QPushButton::clicked, this, &PilotResult::anotherWanted);
     connect(back_, &QPushButton::clicked, this, &PilotResult::backWanted);
     connect(report_, &QPushButton::clicked, this, &PilotResult::reportWanted);
+    connect(export_, &QPushButton::clicked, this, &PilotResult::exportWanted);
     connect(place_, &QPushButton::clicked, this, [this] { emit folderWanted(folder_); });
 }
 
@@ -231,6 +235,7 @@ void PilotResult::show(const RunResult& result, const QString& folder, bool ofSt
                    (result.lsl ? ' ' + qtext(lslSentence(*result.lsl)) : QString()));
     goOn_->hide();
     another_->setVisible(!ofStudy);
+    export_->setVisible(!ofStudy);
     makePrimary(*another_);
     ofStudy_ = ofStudy;
     back_->setText(ofStudy ? tr("Back to the study") : tr("Back"));

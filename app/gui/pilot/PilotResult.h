@@ -37,6 +37,7 @@ signals:
     void goOnWanted();  ///< asks to continue the unfinished session
     void folderWanted(const QString& folder);
     void reportWanted();
+    void exportWanted();  ///< asks to export a rehearsal; a study is exported on its page
 
 private:
     void showMatrix(const nlohmann::json& results);
@@ -53,6 +54,7 @@ private:
     QPushButton* another_;
     QPushButton* back_;
     QPushButton* report_;
+    QPushButton* export_;
     QPushButton* place_;
 };
 

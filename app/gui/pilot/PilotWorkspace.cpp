@@ -91,13 +91,20 @@ QWidget* PilotWorkspace::buildHome() {
         wanted_ = session;
         rehearsed_.open(rehearsal_->folder(), nullptr);
     });
-    connect(&rehearsed_, &OpenStudy::opened, this, [this] { rehearsed_.readResult(wanted_); });
+    connect(&rehearsed_, &OpenStudy::opened, this, [this] {
+        exportTo_.isEmpty() ? rehearsed_.readResult(wanted_) : rehearsed_.exportBids(std::exchange(exportTo_, {}));
+    });
+    connect(&rehearsed_, &OpenStudy::exported, this, [this](const QString& place) {
+        result_->say(tr("The results lie in %1.").arg(place));
+        rehearsed_.close();
+    });
     connect(&rehearsed_, &OpenStudy::resultRead, this, [this](const RunResult& result) {
         showRecorded(result, false);
         rehearsed_.close();
     });
     connect(&rehearsed_, &OpenStudy::refused, this, [this](const QString& why) {
-        rehearsal_->say(why);
+        pages_->currentIndex() == kOutcome ? result_->say("⚠ " + why) : rehearsal_->say(why);
+        exportTo_.clear();
         rehearsed_.close();
     });
     return home_;
@@ -155,6 +162,17 @@ void PilotWorkspace::connectResult() {
         if (const auto why = openOnDesktop(folder); !why.isEmpty()) result_->say(why);
     });
     connect(result_, &PilotResult::reportWanted, this, &PilotWorkspace::makeReport);
+    connect(result_, &PilotResult::exportWanted, this, [this] {
+        const QFileInfo folder(shown_);
+        const FileQuestion question{.title = tr("A new or empty folder for the results, outside the rehearsal"),
+                                    .wants = FileQuestion::Wants::NewFolder,
+                                    .folder = folder.absolutePath(),
+                                    .name = folder.fileName() + "-bids"};
+        askForFile(*this, question, [this, rehearsal = shown_](const QString& place) {
+            exportTo_ = place;
+            rehearsed_.open(rehearsal, nullptr);
+        });
+    });
     connect(&reports_, &ReportMaker::failed, result_, &PilotResult::say);
     connect(&reports_, &ReportMaker::done, this, [this](const QString& out, const QString& signs) {
         result_->say(tr("The report is %1.").arg(out));

@@ -74,8 +74,9 @@ private:
     void sayWhereItBegan(const QString& why);
 
     OpenStudy study_{this};
-    OpenStudy rehearsed_;  ///< a rehearsal whose result is read
+    OpenStudy rehearsed_;  ///< a rehearsal whose result is read, or that is exported
     QString wanted_;       ///< the session of that result
+    QString exportTo_;     ///< where it is exported instead; empty: it is not
     QString shown_;        ///< the folder of the result shown
     QString recorded_;     ///< the record of the result shown, in which a signature is noted
     ReportMaker reports_;  ///< of rehearsals; a study's page draws its own

@@ -2,6 +2,8 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDir>
+#include <QFile>
+#include <QFileDialog>
 #include <QLineEdit>
 #include <QPointer>
 #include <QTableWidget>
@@ -48,11 +50,11 @@ protected:
             ->setText(QString::fromStdString((folder.path() / "study").string()));
         pilot->findChild<QComboBox*>("whoAnswers")->setCurrentIndex(person ? 1 : 0);
         pilot->findChild<QLineEdit*>("rehearsalBlocks")->setText("1");
-        auto* through = pilot->findChild<QComboBox*>("rehearsalModality");
-        through->setCurrentIndex(through->findData(modality));
         auto* ownPace = pilot->findChild<QComboBox*>("ownPace");
         EXPECT_EQ(ownPace->isVisible(), person);
         ownPace->setCurrentIndex(ownPace->findData(pace));
+        auto* through = pilot->findChild<QComboBox*>("rehearsalModality");
+        through->setCurrentIndex(through->findData(modality));
         click(*pilot->findChild<QPushButton*>("beginRehearsal"));
         const auto* trouble = pilot->findChild<QLabel*>("rehearsalTrouble");
         ASSERT_TRUE(pilot->running()) << trouble->text().toStdString();
@@ -148,6 +150,18 @@ TEST_F(RehearsalInTheWindow, AVirtualParticipantComesToAResult) {
                verified->status == SessionStatus::Intact;
     }));
     report->close();
+    click(*pilot->findChild<QPushButton*>("exportOfResult"));
+    auto* asks = pilot->findChild<QFileDialog*>("fileChooser");
+    ASSERT_NE(asks, nullptr);
+    const auto place = QString::fromStdString((folder.path() / "shared").string());
+    emit asks->fileSelected(place);
+    asks->close();
+    ASSERT_IN_TIME(comesTrue([&] { return text("pilotNote").contains("The results lie in " + place); }, 60'000))
+        << text("pilotNote").toStdString();
+    EXPECT_TRUE(QFile::exists(place + "/participants.tsv"));
+    click(*pilot->findChild<QPushButton*>("exportOfResult"));
+    emit pilot->findChildren<QFileDialog*>("fileChooser").back()->fileSelected(place);
+    ASSERT_IN_TIME(comesTrue([&] { return text("pilotNote").contains("⚠"); }, 60'000)) << "into a folder that is full";
     click(*pilot->findChild<QPushButton*>("backFromResult"));
     EXPECT_EQ(text("rehearsalTitle"), "Another session of this rehearsal");
     EXPECT_TRUE(pilot->findChild<gui::TabbedPage*>()->isVisible()) << "the way to the study";
@@ -336,20 +350,6 @@ TEST_F(RehearsalInTheWindow, BothStopsAreTestedAndTheSessionIsEndedByTheOperator
     shot(nextDay, "rehearsal-to-go-on");
 }
 
-TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
-    RecordProperty("hazard", "H2");
-    begin(true);
-    auto* theirs = pilot->participantWindow();
-    ASSERT_NE(theirs, nullptr);
-    ASSERT_NO_FATAL_FAILURE(readOn());
-    QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);
-    const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
-    ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && strip->question().open(); }, 20'000));
-    click(*find<QPushButton>(*strip, "End the session"));
-    const auto reason = [&] { return strip->findChild<QLineEdit*>("operatorAnswer"); };
-    ASSERT_IN_TIME(comesTrue([&] { return reason() != nullptr && reason()->isVisible(); }, 20'000));
-    EXPECT_EQ(window.controller().telemetry().state, InterlockState::Disarmed) << "the reason comes after it is off";
-    QTest::keyClicks(reason(), "fire alarm");
 /// Nothing is felt, so nobody waits for it; the person still answers in their own time, and stops.
 TEST_F(RehearsalInTheWindow, FourTimesAsFastAllButTheAnswersPass) {
     RecordProperty("hazard", "H2");
@@ -405,6 +405,20 @@ TEST_F(RehearsalInTheWindow, FourTimesAsFastAllButTheAnswersPass) {
     EXPECT_EQ(faultsOf(window), "");
 }
 
+TEST_F(RehearsalInTheWindow, AnAbortIsNoTestOfTheOperatorsStop) {
+    RecordProperty("hazard", "H2");
+    begin(true);
+    auto* theirs = pilot->participantWindow();
+    ASSERT_NE(theirs, nullptr);
+    ASSERT_NO_FATAL_FAILURE(readOn());
+    QTest::keyClick(theirs->windowHandle(), Qt::Key_Escape);
+    const QPointer strip = theirs->findChild<gui::OperatorStrip*>();
+    ASSERT_IN_TIME(comesTrue([&] { return strip->isVisible() && strip->question().open(); }, 20'000));
+    click(*find<QPushButton>(*strip, "End the session"));
+    const auto reason = [&] { return strip->findChild<QLineEdit*>("operatorAnswer"); };
+    ASSERT_IN_TIME(comesTrue([&] { return reason() != nullptr && reason()->isVisible(); }, 20'000));
+    EXPECT_EQ(window.controller().telemetry().state, InterlockState::Disarmed) << "the reason comes after it is off";
+    QTest::keyClicks(reason(), "fire alarm");
     QTest::keyClick(reason(), Qt::Key_Return);
     ASSERT_IN_TIME(comesTrue([this] { return !pilot->running(); }, 20'000));
     EXPECT_NE(find<QPushButton>(*pilot, "Go on with the session"), nullptr) << headline();
