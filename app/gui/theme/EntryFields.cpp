@@ -80,6 +80,7 @@ DayField::DayField(const QString& name, const QString& meansEmpty, QWidget* pare
     connect(calendar, &QCalendarWidget::clicked, line_, take);
     connect(calendar, &QCalendarWidget::activated, line_, take);
     placeInLine(*this, *line_, *button_);
+    button_->setFocusPolicy(Qt::ClickFocus);  // Tab leads to the next field: the line opens the calendar by Alt+Down
 }
 
 bool DayField::eventFilter(QObject* watched, QEvent* event) {

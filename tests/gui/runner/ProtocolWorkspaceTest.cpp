@@ -694,6 +694,9 @@ function run(p) { log(p.due + " " + p.table); }
     EXPECT_EQ(calendar->selectedDate(), QDate(2027, 3, 1));
     emit calendar->clicked(QDate(2027, 5, 6));
     EXPECT_EQ(due.text(), "2027-05-06");
+    due.setFocus();
+    QTest::keyClick(&due, Qt::Key_Tab);
+    EXPECT_FALSE(the<QToolButton>("calendar-due").hasFocus()) << "one Tab leads to the next field";
     click(the<QToolButton>("choose-table"));
     auto* dialog = workspace->findChild<QFileDialog*>();
     ASSERT_NE(dialog, nullptr);
