@@ -92,11 +92,26 @@ void beginPart(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasi
     if (const auto warning = warningOf(basis); !warning.isEmpty()) blocks.emplace_back(ParagraphBlock{warning});
 }
 
+/// Adds a heading, and below it what `add` adds; where no session was held a sentence says so.
+template <class Add>
+void addOfSessions(std::vector<ReportBlock>& blocks, Captions& captions, const QString& heading,
+                   const StudyRecord& study, Add add) {
+    blocks.emplace_back(captions.heading(heading));
+    if (std::ranges::all_of(study.participants, [](const auto& each) { return each.sessions.empty(); }))
+        blocks.emplace_back(ParagraphBlock{"No session was held."});
+    else
+        add();
+}
+
 void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasis basis,
                  std::vector<PersonResult> people) {
     blocks.emplace_back(captions.heading("All participants"));
     auto together = judgeFewPeople(std::move(people));
     together.who = peopleOf(basis);
+    if (together.people.empty()) {
+        blocks.emplace_back(ParagraphBlock{qtext(fewPeopleSentence(together))});
+        return;
+    }
     TableBlock table;
     table.caption = captions.table("Each participant's first session with test trials, else the last");
     table.columns = {{"Participant"},          {"Usable range"},      {"Right", true},
@@ -111,10 +126,11 @@ void addTogether(std::vector<ReportBlock>& blocks, Captions& captions, SessionBa
                               person.encoding.empty() ? QString("–") : qtext(person.encoding)});
     }
     blocks.emplace_back(std::move(table));
-    blocks.emplace_back(ParagraphBlock{QString("Median accuracy %1 %, from %2 to %3 %.")
-                                           .arg(figureText(100 * together.accuracy.median, 0),
-                                                figureText(100 * together.accuracy.min, 0),
-                                                figureText(100 * together.accuracy.max, 0))});
+    if (std::isfinite(together.accuracy.median))
+        blocks.emplace_back(ParagraphBlock{QString("Median accuracy %1 %, from %2 to %3 %.")
+                                               .arg(figureText(100 * together.accuracy.median, 0),
+                                                    figureText(100 * together.accuracy.min, 0),
+                                                    figureText(100 * together.accuracy.max, 0))});
     blocks.emplace_back(ParagraphBlock{qtext(fewPeopleSentence(together))});
     blocks.emplace_back(ParagraphBlock{
         "Answers of different people are not pooled: no proportion, p or interval is given over all trials.", true});
@@ -229,10 +245,12 @@ Result<void> addResults(std::vector<ReportBlock>& blocks, Captions& captions, Se
         blocks.emplace_back(std::move(*table));
         blocks.emplace_back(ParagraphBlock{preferencesNote(study)});
     }
-    blocks.emplace_back(captions.heading("Drift and exposure"));
-    blocks.emplace_back(courseTable(study, ShownName::Code, captions.table("Drift and exposure, a row a session")));
-    blocks.emplace_back(captions.heading("Side effects"));
-    blocks.emplace_back(sideEffectsTable(study, ShownName::Code, captions.table("Side effects, a row a session")));
+    addOfSessions(blocks, captions, "Drift and exposure", study, [&] {
+        blocks.emplace_back(courseTable(study, ShownName::Code, captions.table("Drift and exposure, a row a session")));
+    });
+    addOfSessions(blocks, captions, "Side effects", study, [&] {
+        blocks.emplace_back(sideEffectsTable(study, ShownName::Code, captions.table("Side effects, a row a session")));
+    });
     blocks.emplace_back(captions.heading("Flow of participants"));
     blocks.emplace_back(flowTable(study, basis, captions.table("From enrolment to result")));
     return {};
@@ -242,12 +260,15 @@ Result<void> addResults(std::vector<ReportBlock>& blocks, Captions& captions, Se
 void addCare(std::vector<ReportBlock>& blocks, Captions& captions, SessionBasis basis, const StudyRecord& study) {
     blocks.emplace_back(captions.heading("Flow of participants"));
     blocks.emplace_back(flowTable(study, basis, captions.table("From enrolment to result")));
-    blocks.emplace_back(captions.heading("Sessions"));
-    blocks.emplace_back(careTable(study, captions.table("Stimulation, stops and skin, a row a session")));
-    blocks.emplace_back(courseTable(study, ShownName::Label, captions.table("Drift and exposure, a row a session")));
-    blocks.emplace_back(refusalsTable(study, captions.table("Checks that did not hold")));
-    blocks.emplace_back(captions.heading("Side effects"));
-    blocks.emplace_back(sideEffectsTable(study, ShownName::Label, captions.table("Side effects, a row a session")));
+    addOfSessions(blocks, captions, "Sessions", study, [&] {
+        blocks.emplace_back(careTable(study, captions.table("Stimulation, stops and skin, a row a session")));
+        blocks.emplace_back(
+            courseTable(study, ShownName::Label, captions.table("Drift and exposure, a row a session")));
+        blocks.emplace_back(refusalsTable(study, captions.table("Checks that did not hold")));
+    });
+    addOfSessions(blocks, captions, "Side effects", study, [&] {
+        blocks.emplace_back(sideEffectsTable(study, ShownName::Label, captions.table("Side effects, a row a session")));
+    });
     blocks.emplace_back(captions.heading("Adverse events"));
     if (study.events.empty()) {
         blocks.emplace_back(ParagraphBlock{"None was recorded."});

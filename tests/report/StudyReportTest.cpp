@@ -207,6 +207,21 @@ TEST(StudyReport, StandardsItemsOfTheProgramStandInBothReports) {
     EXPECT_THAT(textOf(committeeReport(study)), Not(HasSubstr("male, "))) << "of three each could be told";
 }
 
+TEST(StudyReport, WithoutASessionEachSaysSoAndNoTableIsEmpty) {
+    RecordProperty("hazard", "H11");
+    auto study = studyOfThree();
+    for (auto& each : study.participants) each.sessions.clear();
+    for (const auto& content : {accepted(studyReport(study)), committeeReport(study)}) {
+        EXPECT_THAT(textOf(content), HasSubstr("No session was held."));
+        EXPECT_THAT(textOf(content), Not(HasSubstr("Median accuracy")));
+        for (const auto& block : content.blocks) {
+            const auto* table = std::get_if<TableBlock>(&block);
+            if (table != nullptr) EXPECT_FALSE(table->rows.empty()) << table->caption.toStdString();
+        }
+    }
+    EXPECT_THAT(textOf(*studyReport(study)), HasSubstr("Nothing is known: no participant has a session"));
+}
+
 TEST(StudyReport, EachPersonsResultComesFirst) {
     const auto content = accepted(studyReport(studyOfThree()));
     const auto said = textOf(content);
