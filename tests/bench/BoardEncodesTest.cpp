@@ -11,6 +11,7 @@
 #include "tests/bench/FakeStimulator.h"
 #include "tests/bench/PersonFixture.h"
 #include "tests/bench/TapedFinger.h"
+#include "tests/support/Allocations.h"
 
 namespace tacto::test {
 namespace {
@@ -68,7 +69,10 @@ struct BoardRig {
             const auto ms = clock.now() / std::chrono::milliseconds(1);
             if (ms % 2 == 0) sensor->serve(clock.now());
             stimulator.serve(clock.now());
-            if (ms % 5 == 0) loop->step(clock.now());
+            if (ms % 5 != 0) continue;
+            const auto before = allocationsOfThisThread();
+            loop->step(clock.now());
+            allocated += allocationsOfThisThread() - before;
         }
     }
     /// A train of the profile's form with its onset `in_s` from now.
@@ -94,6 +98,7 @@ struct BoardRig {
         return std::string(loop->telemetry().lastRefusal.view());
     }
 
+    std::uint64_t allocated = 0;  ///< by steps of the loop
     VirtualClock clock;
     SafetyGate gate{clock};
     Interlock interlock;
@@ -127,6 +132,23 @@ TEST(BoardEncodes, ItsTrainsArePlayedOnceWithTheirAmplitudesAndIntervals) {
         EXPECT_NEAR(toSeconds(played[i].onset) - sent[i].onset_s, 0.010, 0.0011) << i;
     }
     EXPECT_EQ(rig.loop->telemetry().trainsSkipped, 0U);
+}
+
+TEST(BoardEncodes, TheLoopPlaysItsTrainsAndAllocatesNothing) {
+    if (!countsAllocations()) GTEST_SKIP() << kNotCounted;
+    BoardRig rig;
+    const auto play = [&rig] {
+        for (int i = 0; i < 20; ++i) {
+            rig.send(rig.train(20 + i, 0.5, i % 5 == 4 ? -1 : 0));
+            rig.finger.next.frames.push_back({toSeconds(rig.clock.now()), true, true});
+            rig.pass(0.5);
+        }
+    };
+    play();
+    rig.allocated = 0;
+    play();
+    EXPECT_EQ(rig.allocated, 0U);
+    EXPECT_EQ(rig.played().size(), 32U);
 }
 
 TEST(BoardEncodes, NothingIsPlayedThatItDoesNotSend) {

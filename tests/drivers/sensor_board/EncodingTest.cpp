@@ -5,6 +5,7 @@
 
 #include "core/base/Random.h"
 #include "drivers/sensor_board/BoardReport.h"
+#include "drivers/sensor_board/PluggedBoard.h"
 #include "resources/firmware/tactile_encoder/tactile_encoder.h"
 #include "tests/drivers/sensor_board/SensorBoardBench.h"
 #include "tests/support/Refused.h"
@@ -169,6 +170,27 @@ TEST(SensorBoardEncoding, ATimeThatCannotBeIsNotUsed) {
         EXPECT_TRUE(readLater(bench).trains.empty()) << onset_us;
     }
     EXPECT_EQ(bench.board->report().encodedLate, 3U);
+}
+
+TEST(SensorBoardEncoding, ABoardThatComesBackWithAnotherProfileIsRefused) {
+    RecordProperty("hazard", "H4");
+    SensorBoardBench first(encoding());
+    auto other = encoding();
+    const auto opened = [](SensorBoardBench& bench) { return bench.tryOpen(asked(Encodes::Drives)); };
+    for (const std::uint32_t hash : {0x1234ABCDU, 0x1234ABCEU}) {
+        other.encoder->hash = hash;
+        SensorBoardBench second(other);
+        PluggedBoard board(opened(first).value(), [&](const std::string& serial) {
+            EXPECT_EQ(serial, "EMU-0001");
+            return opened(second);
+        });
+        EXPECT_EQ(board.encoder(), (BoardEncoder{true, 0x1234ABCD}));
+        const auto again = board.reconnect();
+        if (hash == 0x1234ABCDU)
+            EXPECT_TRUE(again.has_value());
+        else
+            EXPECT_THAT(again, refusedSaying("came back with another profile in its encoder"));
+    }
 }
 
 TEST(SensorBoardEncoding, ABoardThatWasNotAskedSaysNothingThatIsUsed) {
