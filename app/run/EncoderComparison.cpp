@@ -183,7 +183,7 @@ struct EncoderComparison::State {
             return planner.wantNothing();
         const auto pressure = std::isnan(frame.P) ? std::nullopt : std::optional(frame.P);
         if (!planner.want(frame.R, pressure, now)) return;
-        if (!(*planner.due() < now + kTurn)) return;
+        if (!(*planner.due() < now + ControlLoop::kPeriod)) return;
         planner.armedOn(load);
         if (const auto planned = planner.plan(now, load))
             bench.trains.push_back({toSeconds(planned->onset), level(planned->approved.train())});
@@ -210,6 +210,7 @@ struct EncoderComparison::State {
     EncoderSide sent;                    // by it
     const Ohms load;
     const double step;
+    Instant drives{0};  // when both sides are next asked for trains
 };
 
 EncoderComparison::EncoderComparison(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -223,7 +224,7 @@ Result<std::unique_ptr<EncoderComparison>> EncoderComparison::create(TactileSens
         encoderProfile(sensor.streams(), profile.roughness, profile.encoding, output, sensor.identity().serial);
     if (!encoder) return failure(encoder);
     auto* const encoding = dynamic_cast<EncodingSensor*>(&sensor);
-    if (auto* loader = dynamic_cast<EncoderLoader*>(&sensor)) {
+    if (auto* loader = dynamic_cast<EncoderLoader*>(&sensor); loader != nullptr && loader->wantsProfile()) {
         if (const auto loaded = loader->load(profileBytes(*encoder)); !loaded) return failure(loaded);
     }
     auto state = std::make_unique<State>(sensor, clock, output, profile.encoding, *encoder);
@@ -259,13 +260,14 @@ Result<void> EncoderComparison::turn() {
     if (s.session->failed()) return fail(ErrorCode::Device, "{}", s.session->error().view());
     s.finger->update();
     s.bench.frames.insert(s.bench.frames.end(), s.finger->frames().begin(), s.finger->frames().end());
-    s.driveBench(now);
-    if (s.encoding != nullptr) {
+    if (s.encoding != nullptr)
         s.take(s.encoding->encoded());
-        return {};
-    }
-    s.own.feed(s.sensor.streams(), s.finger->blocks());
-    s.own.drive(now);
+    else
+        s.own.feed(s.sensor.streams(), s.finger->blocks());
+    if (now < s.drives) return {};
+    s.drives = now + ControlLoop::kPeriod;
+    s.driveBench(now);
+    if (s.encoding == nullptr) s.own.drive(now);
     return {};
 }
 

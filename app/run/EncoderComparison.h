@@ -57,7 +57,7 @@ struct EncoderAgreement {
 
 class EncoderComparison {
 public:
-    static constexpr Instant kTurn = ControlLoop::kPeriod;
+    static constexpr Instant kTurn = std::chrono::milliseconds(1);
 
     /// `sensor` and `clock` outlive the comparison; a simulated board gets the profile. Errors: as encoderProfile(),
     /// SafetyGate::configure() and RoughnessChain::create(); Unsupported for a stream of more channels than a session
@@ -69,7 +69,8 @@ public:
                                                                            const Clock& clock);
     ~EncoderComparison();
 
-    /// Reads the sensor and lets both sides go on; to be called every kTurn. Errors: Device, as the sensor.
+    /// Reads the sensor, and every ControlLoop::kPeriod lets both sides make trains; to be called every kTurn, because
+    /// a board's clock is known as well as its line is watched. Errors: Device, as the sensor.
     [[nodiscard]] Result<void> turn();
 
     [[nodiscard]] const EncoderSide& bench() const noexcept;

@@ -10,6 +10,7 @@
 #include "core/base/ProgramVersion.h"
 #include "core/bench/arming/CommandPreview.h"
 #include "core/devices/Device.h"
+#include "core/devices/EncoderLoader.h"
 #include "core/safety/UnitRecord.h"
 #include "core/session/Origin.h"
 #include "drivers/sensor_board/EncoderProfile.h"
@@ -36,12 +37,29 @@ std::string originOf(const DeviceSet& devices, const DeviceIdentity& identity) {
     return identity.simulated ? origin::kSimulated : origin::kHardware;
 }
 
-/// Returns the hash of the profile that a board must have to encode for this bench.
+/// Returns the profile that a board must have to encode for this bench.
+Result<te_profile> profileForBoard(const TactileSensor& sensor, const Profile& profile, const EncoderOutput& output) {
+    return encoderProfile(sensor.streams(), profile.roughness, profile.encoding, output, sensor.identity().serial);
+}
+
 Result<std::uint32_t> hashForBoard(const TactileSensor& sensor, const Profile& profile, const GateSetup& setup) {
-    const auto made = encoderProfile(sensor.streams(), profile.roughness, profile.encoding,
-                                     {setup.source, setup.load, setup.ceilings}, sensor.identity().serial);
+    const auto made = profileForBoard(sensor, profile, {setup.source, setup.load, setup.ceilings});
     if (!made) return failure(made);
     return made->hash;
+}
+
+/// Writes the profile for this stimulator and the declared load into a simulated board.
+Result<void> loadBoard(const BenchOrder& order, DeviceSet& devices) {
+    auto* const loader = dynamic_cast<EncoderLoader*>(devices.sensor.get());
+    if (loader == nullptr || !loader->wantsProfile() || !devices.stimulator) return {};
+    const auto load = parseLoad(order.declaredLoad);
+    if (!load) return failure(load);
+    const auto made =
+        profileForBoard(*devices.sensor, order.profile,
+                        {devices.stimulator->traits(), LoadRange::declared(*load), order.profile.ceilings});
+    if (made) return loader->load(profileBytes(*made));
+    return fail(made.error().code, "the profile \"{}\" is not for {}, which encodes: {}", order.profile.name,
+                devices.sensor->identity().name, made.error().message);
 }
 
 /// Notes in the session which parts of the profile do not fit the devices, and warns about them.
@@ -130,6 +148,7 @@ Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry
                               .asked = order.asked};
     auto devices = openDevices(registry, order.uris, order.needed, context);
     if (!devices) return failure(devices);
+    if (auto loaded = loadBoard(order, *devices); !loaded) return failure(loaded);
     const auto certificate = stateOscilloscope(*devices);
     opened->about = aboutSession(*devices, order);
     auto session = order.makeSession

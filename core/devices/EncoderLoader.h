@@ -13,9 +13,10 @@ namespace tacto {
 class EncoderLoader {
 public:
     virtual ~EncoderLoader() = default;
-    /// Switches the board off and on with this profile, as te_read_profile() reads it; a board that is not to encode,
-    /// or whose address names a profile, keeps what it has. Errors: InvalidArgument for bytes that are no profile;
-    /// Device if the board refuses it.
+    /// False for a board that is not to encode, or whose address names a profile: it keeps what it has.
+    [[nodiscard]] virtual bool wantsProfile() const noexcept = 0;
+    /// Switches the board off and on with this profile, as te_read_profile() reads it. Errors: InvalidArgument for
+    /// bytes that are no profile; Device if the board refuses it.
     [[nodiscard]] virtual Result<void> load(std::string_view profile) = 0;
 };
 

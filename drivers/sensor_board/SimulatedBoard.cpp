@@ -46,7 +46,6 @@ Result<std::unique_ptr<TactileSensor>> SimulatedBoard::open(std::unique_ptr<Tact
 }
 
 Result<void> SimulatedBoard::load(std::string_view profile) {
-    if (encodes_ == Encodes::No || hasOwnProfile_) return {};
     auto begun = begin(profile);
     if (!begun) static_cast<void>(begin({}));  // as it was before
     return begun;

@@ -108,38 +108,5 @@ TEST_F(SensorCommand, AWrongCommandLineIsSaidInOneSentence) {
     expectRefused(desk_.run({"sensor", "status", uri("&rate=5")}), 2, {"rate=5", "100 Hz to 20 kHz"});
 }
 
-TEST(SensorCompare, FindsTheSameInARecordingAsTheBoardWould) {
-    RecordProperty("hazard", "H1");
-    const Desk desk;
-    const auto recording = (sourceDir() / "resources" / "examples" / "four-touches").string();
-    const auto ran = desk.run({"sensor", "compare", recording, "--json"});
-    ASSERT_EQ(ran.code, 0) << ran.err;
-    const auto value = jsonOf(ran);
-    expectKeys(value,
-               {"frames", "trains", "max_dR", "max_dP", "max_dA_pct", "max_onset_s", "refused_alike", "unlike",
-                "simulated", "verdict"},
-               "compare");
-    EXPECT_GT(value["frames"], 500);
-    EXPECT_GT(value["trains"], 3);
-    EXPECT_LE(value["max_dR"], 0.01);
-    EXPECT_LE(value["max_dP"], 0.002);
-    EXPECT_LE(value["max_dA_pct"], 0.5);
-    EXPECT_LE(value["max_onset_s"], 0.00025);
-    EXPECT_EQ(value["refused_alike"], true);
-    EXPECT_EQ(value["verdict"], "pass");
-    const auto said = desk.run({"sensor", "compare", recording});
-    EXPECT_EQ(said.code, 0);
-    for (const auto* part : {"SIMULATED", "roughness R", "0.25 ms", "pass"}) EXPECT_THAT(said.out, HasSubstr(part));
-}
-
-TEST(SensorCompare, SaysWhatItCannotCompare) {
-    const Desk desk;
-    const auto still = desk.run({"sensor", "compare", "sim:finger?force=0N", "--seconds", "3", "--json"});
-    EXPECT_EQ(still.code, 5) << still.err;
-    EXPECT_EQ(jsonOf(still)["verdict"], "indeterminate");
-    expectRefused(desk.run({"sensor", "compare", "sim:finger?rate=8000"}), 3, {"4007 Hz"});
-    expectRefused(desk.run({"sensor", "compare", "sim:stimulator"}), 3, {"sensor"});
-}
-
 }  // namespace
 }  // namespace tacto::test

@@ -73,7 +73,9 @@ protected:
         blocks_.resize(devices_.sensor->streams().size());
     }
     [[nodiscard]] Result<void> load(const te_profile& profile) {
-        return dynamic_cast<EncoderLoader&>(*devices_.sensor).load(profileBytes(profile));
+        auto& loader = dynamic_cast<EncoderLoader&>(*devices_.sensor);
+        if (!loader.wantsProfile()) return {};
+        return loader.load(profileBytes(profile));
     }
     [[nodiscard]] Result<void> run(double seconds) {
         for (const Instant end = clock_.now() + toInstant(seconds); clock_.now() < end;) {
