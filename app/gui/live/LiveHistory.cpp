@@ -11,6 +11,7 @@ constexpr std::size_t kFrames = 8192;           // a minute at 62.5 Hz, with roo
 constexpr std::size_t kCommands = 4096;         // a minute at 60 updates per second
 constexpr double kCommandStep_s = 60.0 / 4096;  // least time between commands; slowed time brings more updates
 constexpr double kOtherClock_s = 1;
+constexpr double kSameFrame_s = 4e-3;  // between the bench's stamp and the board's, mapped to the bench's clock
 
 }  // namespace
 
@@ -54,7 +55,8 @@ std::size_t Series::firstFrom(double t_s) const noexcept {
     return low;
 }
 
-LiveHistory::LiveHistory() : frames_(kColumns, kFrames), commands_(kCommandColumns, kCommands) {}
+LiveHistory::LiveHistory()
+    : frames_(kColumns, kFrames), boardFrames_(kBoardColumns, kFrames), commands_(kCommandColumns, kCommands) {}
 
 void LiveHistory::begin(const std::vector<StreamInfo>& streams) {
     streams_ = streams;
@@ -65,8 +67,10 @@ void LiveHistory::begin(const std::vector<StreamInfo>& streams) {
                               static_cast<std::size_t>(rate * kKept_s));
     }
     frames_.clear();
+    boardFrames_.clear();
     commands_.clear();
     trains_.clear();
+    boardTrains_.clear();
     marks_.clear();
     now_s_ = 0;
     missed_ = 0;
@@ -86,6 +90,7 @@ void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry, QTime clock) {
                                          frame->contact ? 1.F : 0.F,   frame->sliding ? 1.F : 0.F};
         frames_.push(frame->t_s, columns);
     }
+    takeBoard(tap);
     while (const auto train = tap.trains.pop()) {
         if (trains_.size() == kMaxTrains) trains_.pop_front();
         trains_.push_back(*train);
@@ -101,6 +106,24 @@ void LiveHistory::take(BenchTap& tap, const Telemetry& telemetry, QTime clock) {
     if (faulted && !faulted_) fault_ = Fault{.at_s = now_s_, .why = telemetry.reason, .clock = clock};
     if (!faulted && faulted_) fault_->until_s = now_s_;
     faulted_ = faulted;
+}
+
+/// A board's frame comes no earlier than the bench's of the same samples.
+void LiveHistory::takeBoard(BenchTap& tap) {
+    while (const auto frame = tap.boardFrames.pop()) {
+        const auto i = frames_.firstFrom(frame->t_s - kSameFrame_s);
+        const bool same = i < frames_.size() && frames_.time(i) <= frame->t_s + kSameFrame_s;
+        const auto above = [&](double board, Column column) {
+            return same ? static_cast<float>(board) - frames_.value(i, column) : std::nanf("");
+        };
+        const float columns[kBoardColumns] = {static_cast<float>(frame->R), static_cast<float>(frame->P),
+                                              above(frame->R, kRoughness), above(frame->P, kPressure)};
+        boardFrames_.push(frame->t_s, columns);
+    }
+    while (const auto train = tap.boardTrains.pop()) {
+        if (boardTrains_.size() == kMaxTrains) boardTrains_.pop_front();
+        boardTrains_.push_back(*train);
+    }
 }
 
 void LiveHistory::addMark(PlotMark mark) {

@@ -75,6 +75,10 @@ public:
     /// Columns of commands(): what the encoder asked for, and |Z| at that time; NaN if it asked for nothing.
     enum Command : std::size_t { kAmplitude_v, kInterval_s, kImpedance_ohm, kCommandColumns };
 
+    /// Columns of boardFrames(): as the board's own encoder sees them, and how much they are above the bench's; NaN
+    /// where the bench has no such frame.
+    enum BoardColumn : std::size_t { kBoardRoughness, kBoardPressure, kAboveR, kAboveP, kBoardColumns };
+
     LiveHistory();
     /// Forgets everything, since another bench is open. `streams`: as named by the bench's sensor.
     void begin(const std::vector<StreamInfo>& streams);
@@ -86,6 +90,9 @@ public:
     [[nodiscard]] const Series* samples(StreamKind kind) const noexcept;
     [[nodiscard]] const StreamInfo* info(StreamKind kind) const noexcept;
     [[nodiscard]] const Series& frames() const noexcept { return frames_; }
+    /// Empty unless a board encodes, as are boardTrains().
+    [[nodiscard]] const Series& boardFrames() const noexcept { return boardFrames_; }
+    [[nodiscard]] const std::deque<EncodedTrain>& boardTrains() const noexcept { return boardTrains_; }
     [[nodiscard]] const Series& commands() const noexcept { return commands_; }
     /// The trains, oldest first, including impedance checks.
     [[nodiscard]] const std::deque<TrainReport>& trains() const noexcept { return trains_; }
@@ -106,11 +113,15 @@ public:
     [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
 
 private:
+    void takeBoard(BenchTap& tap);
+
     std::vector<StreamInfo> streams_;
     std::vector<Series> samples_;
     Series frames_;
+    Series boardFrames_;
     Series commands_;
     std::deque<TrainReport> trains_;
+    std::deque<EncodedTrain> boardTrains_;
     std::vector<PlotMark> marks_;  // at most kMaxMarks
     double now_s_ = 0;
     std::uint64_t missed_ = 0;

@@ -88,6 +88,9 @@ StripPlots::StripPlots(const LiveHistory& history, QWidget* parent) : QCustomPlo
     roughness_ = graphIn(kIndices);
     pressure_ = graphIn(kIndices);
     pressure_->setDashed(true);
+    boardRoughness_ = graphIn(kIndices);
+    boardPressure_ = graphIn(kIndices);
+    boardPressure_->setDashed(true);
     trains_ = std::make_unique<TrainGraphs>(strips_[kTrains]);
     fault_ = new QCPItemText(this);
     placeAcross(*fault_->position, strips_[kTrains].axes());
@@ -140,6 +143,8 @@ void StripPlots::attach() {
     give(StreamKind::Taxels, taxels_);
     roughness_->show(&shown().frames(), LiveHistory::kRoughness, kFrameGap_s);
     pressure_->show(&shown().frames(), LiveHistory::kPressure, kFrameGap_s);
+    boardRoughness_->show(&shown().boardFrames(), LiveHistory::kBoardRoughness, kFrameGap_s);
+    boardPressure_->show(&shown().boardFrames(), LiveHistory::kBoardPressure, kFrameGap_s);
 }
 
 /// Applies the current theme and text size.
@@ -160,6 +165,8 @@ void StripPlots::dress() {
     pressure_->setPen(QPen(conditionInTheme("smooth-high").color));
     strips_[kIndices].caption().setSample(0, QPen(roughness_->pen().color(), 2));
     strips_[kIndices].caption().setSample(1, QPen(pressure_->pen().color(), 2, Qt::DashLine));
+    for (auto* graph : {boardRoughness_, boardPressure_}) graph->setPen(QPen(c.third));
+    strips_[kIndices].caption().setSample(2, QPen(c.third, 2));
     trains_->colour();
     const auto faulted = stateStyle(InterlockState::Faulted);
     fault_->setFont(textFont(TextSize::Small, QFont::DemiBold));
@@ -293,13 +300,11 @@ void StripPlots::write() {
     const auto* taxels = shown().samples(StreamKind::Taxels);
     strips_[kTaxels].caption().setValue(taxels == nullptr ? QString() : taxelText(*taxels), true);
     strips_[kSpectrum].caption().setValue(spectrogram_->scaleText(), true);
-    const auto& frames = shown().frames();
     auto& indices = strips_[kIndices].caption();
     indices.setKey(0, tr("roughness R"), tr("R"));
     indices.setKey(1, tr("pressure P"), tr("P"));
-    indices.setValue(tr("R %1 · P %2")
-                         .arg(indexText(newest(&frames, LiveHistory::kRoughness)),
-                              indexText(newest(&frames, LiveHistory::kPressure))));
+    indices.setKey(2, shown().boardFrames().empty() ? QString() : tr("as the board encodes"), tr("board"));
+    indices.setValue(indicesText());
     trains_->caption();
 }
 
@@ -309,6 +314,26 @@ QString StripPlots::taxelText(const Series& taxels) const {
     for (std::size_t c = 0; c < taxels.channels(); ++c) sum += double(taxels.value(taxels.size() - 1, c));
     const auto unit = strips_[kTaxels].unit() == "kPa" ? QString("Pa") : strips_[kTaxels].unit();
     return tr("%1 taxels, mean %2").arg(taxels.channels()).arg(quantityText(sum / double(taxels.channels()), unit, 2));
+}
+
+/// R and P, and how far the board's are from them at most in what is shown.
+QString StripPlots::indicesText() const {
+    const auto& frames = shown().frames();
+    const auto newest = [&](std::size_t column) {
+        return frames.empty() ? std::nanf("") : frames.value(frames.size() - 1, column);
+    };
+    const auto text =
+        tr("R %1 · P %2").arg(indexText(newest(LiveHistory::kRoughness)), indexText(newest(LiveHistory::kPressure)));
+    const auto& board = shown().boardFrames();
+    if (board.empty()) return text;
+    float apart[2] = {std::nanf(""), std::nanf("")};
+    const auto end = board.firstFrom(shownTime().upper);
+    for (auto i = board.firstFrom(shownTime().lower); i < end; ++i) {
+        apart[0] = std::fmax(apart[0], std::abs(board.value(i, LiveHistory::kAboveR)));
+        apart[1] = std::fmax(apart[1], std::abs(board.value(i, LiveHistory::kAboveP)));
+    }
+    return tr("%1 · board within %2 and %3")
+        .arg(text, decimalText(double(apart[0]), 4), decimalText(double(apart[1]), 4));
 }
 
 QString StripPlots::scalesText() const {

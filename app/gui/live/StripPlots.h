@@ -1,5 +1,6 @@
 // StripPlots.h - the live plots over one time axis: acceleration, force, taxels, spectrum, R and P, the encoded train
-// and its measurement. A strip is left out if the sensor lacks its stream.
+// and its measurement. A strip is left out if the sensor lacks its stream. The R, P and trains of a board that encodes
+// are drawn over the bench's, with the difference in words.
 //
 // If a stream has stopped, its strip is hatched from the last sample on; missing samples break the trace. A fault is a
 // line at its time in every strip. A frozen picture is drawn from a copy, so it can be viewed for any length of time.
@@ -66,6 +67,7 @@ private:
     void markFault(const QCPRange& time);
     void write();
     [[nodiscard]] QString taxelText(const Series& taxels) const;
+    [[nodiscard]] QString indicesText() const;
     void shareTime(const QCPRange& range);
 
     const LiveHistory& history_;
@@ -81,6 +83,7 @@ private:
     std::vector<RollingGraph*> acceleration_, force_, taxels_;
     RollingGraph* roughness_ = nullptr;
     RollingGraph* pressure_ = nullptr;
+    RollingGraph *boardRoughness_ = nullptr, *boardPressure_ = nullptr;  // over the bench's, if a board encodes
     std::unique_ptr<Spectrogram> spectrogram_;
     std::unique_ptr<TrainGraphs> trains_;
     MarkLines marks_{*this};

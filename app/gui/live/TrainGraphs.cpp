@@ -29,7 +29,7 @@ TrainGraphs::TrainGraphs(Strip& strip)
     command_->setLineStyle(QCPGraph::lsStepLeft);
     delivered_->setWidthType(QCPBars::wtAbsolute);
     delivered_->setWidth(3);
-    for (auto** graph : {&measured_, &scoped_, &failed_}) {
+    for (auto** graph : {&measured_, &scoped_, &failed_, &board_}) {
         *graph = strip.time().parentPlot()->addGraph(&strip.time(), &strip.values());
         (*graph)->setLineStyle(QCPGraph::lsNone);
     }
@@ -127,6 +127,12 @@ void TrainGraphs::drawTrains(const LiveHistory& history, const QCPRange& time) {
     for (const auto& reading : readings_) {
         if (time.contains(reading.key)) scoped_->data()->add(reading);
     }
+    board_->data()->clear();
+    for (const auto& train : history.boardTrains()) {
+        if (!time.contains(train.onset_s)) continue;
+        board_->data()->add({train.onset_s, train.amplitude});
+        most = std::max(most, train.amplitude);
+    }
     for (const auto& point : *command_->data()) {
         if (std::isfinite(point.value)) most = std::max(most, point.value);
     }
@@ -145,6 +151,7 @@ void TrainGraphs::colour() {
     measured_->setScatterStyle(points(QCPScatterStyle::ssCircle, c.text, 1, 7));
     scoped_->setScatterStyle(points(QCPScatterStyle::ssDiamond, c.third, 1.5, 9));
     failed_->setScatterStyle(points(QCPScatterStyle::ssCross, c.amber, 1.5, 8));
+    board_->setScatterStyle(points(QCPScatterStyle::ssTriangle, c.third, 1.5, 8));
     off_->setBrush(c.sunken);
     offSays_->setColor(c.text);
     offSays_->setFont(textFont(TextSize::Small, QFont::DemiBold));
@@ -154,6 +161,7 @@ void TrainGraphs::colour() {
     keys.setSample(2, Qt::NoPen, failed_->scatterStyle());
     keys.setSample(3, Qt::NoPen, measured_->scatterStyle());
     keys.setSample(4, Qt::NoPen, scoped_->scatterStyle());
+    keys.setSample(5, Qt::NoPen, board_->scatterStyle());
 }
 
 void TrainGraphs::caption() const {
@@ -164,10 +172,12 @@ void TrainGraphs::caption() const {
     keys.setKey(2, failedAt_.isEmpty() ? QString() : QObject::tr("not delivered"), QObject::tr("not given"));
     keys.setKey(3, measuredAt_.isEmpty() ? QString() : QObject::tr("read back"), QObject::tr("read"));
     keys.setKey(4, scoped_->data()->isEmpty() ? QString() : QObject::tr("oscilloscope"), QObject::tr("scope"));
+    keys.setKey(5, board_->data()->isEmpty() ? QString() : QObject::tr("as the board encodes"), QObject::tr("board"));
 }
 
 std::vector<double> TrainGraphs::shownTrains() const { return valuesOf(*delivered_->data()); }
 std::vector<double> TrainGraphs::shownCommand() const { return valuesOf(*command_->data()); }
+std::vector<double> TrainGraphs::boardTrains() const { return valuesOf(*board_->data()); }
 std::vector<double> TrainGraphs::scopeReadings() const { return valuesOf(*scoped_->data()); }
 
 }  // namespace tacto::gui

@@ -1,6 +1,6 @@
 // TrainGraphs.h - draws the trains: the command as a line, each train as delivered, its values as read back and as
-// measured by the oscilloscope, and trains not delivered. While a fault holds the output off, the background is shaded
-// with a notice, and the command is not drawn.
+// measured by the oscilloscope, trains not delivered, and those of a board that encodes. While a fault holds the output
+// off, the background is shaded with a notice, and the command is not drawn.
 #pragma once
 
 #include <deque>
@@ -31,6 +31,8 @@ public:
     /// Return the corners of the command's line, and the oscilloscope's readings shown, in the stimulator's unit.
     [[nodiscard]] std::vector<double> shownCommand() const;
     [[nodiscard]] std::vector<double> scopeReadings() const;
+    /// Returns the amplitudes of the board's trains.
+    [[nodiscard]] std::vector<double> boardTrains() const;
     /// Returns the onsets of the trains drawn as not delivered.
     [[nodiscard]] QVector<double> shownFailures() const { return failedAt_; }
     /// Returns the shaded time without output in seconds; nothing if no fault is visible.
@@ -49,6 +51,7 @@ private:
     QCPGraph* measured_ = nullptr;
     QCPGraph* scoped_ = nullptr;
     QCPGraph* failed_ = nullptr;
+    QCPGraph* board_ = nullptr;
     QCPItemRect* off_ = nullptr;
     QCPItemText* offSays_ = nullptr;
     static constexpr std::size_t kReadings = 256;

@@ -553,5 +553,38 @@ TEST(LiveHistory, AnotherBenchLeavesNothingOfTheOneBefore) {
     EXPECT_EQ(history.now_s(), 0);
 }
 
+TEST_F(Plots, ShowWhatABoardEncodesOverTheBenchsWithTheDifference) {
+    feel(1);
+    EXPECT_FALSE(plots.readingsText().contains("board"));
+    for (int k = 0; k < 60; ++k) {
+        const double t = 1 + 0.016 * k;
+        tap.frames.push(
+            {.t_s = t, .contact = true, .sliding = true, .h = 1, .v = 1, .R = 0.5, .pressure_pa = 1, .P = 0.3});
+        EncodedFrame board;
+        board.t_s = t + 0.001;
+        board.R = k == 30 ? 0.504 : 0.501;
+        board.P = 0.2995;
+        tap.boardFrames.push(board);
+    }
+    EncodedFrame alone;
+    alone.t_s = 1.97;
+    alone.R = 0.9;
+    tap.boardFrames.push(alone);
+    EncodedTrain train;
+    train.onset_s = 1.5;
+    train.amplitude = 24;
+    tap.boardTrains.push(train);
+    feel(2);
+    ASSERT_EQ(history.boardFrames().size(), 61U);
+    EXPECT_NEAR(history.boardFrames().value(30, LiveHistory::kAboveR), 0.004, 1e-6);
+    EXPECT_NEAR(history.boardFrames().value(0, LiveHistory::kAboveP), -0.0005, 1e-6);
+    EXPECT_TRUE(std::isnan(history.boardFrames().value(60, LiveHistory::kAboveR))) << "the bench has no such frame";
+    for (int i = 0; i < 4; ++i) draw();
+    EXPECT_TRUE(plots.readingsText().contains("board within 0.0040 and 0.0005")) << plots.readingsText().toStdString();
+    EXPECT_EQ(plots.trains().boardTrains(), std::vector<double>{24});
+    history.begin(kPlotted);
+    EXPECT_TRUE(history.boardFrames().empty() && history.boardTrains().empty());
+}
+
 }  // namespace
 }  // namespace tacto::test
