@@ -146,7 +146,7 @@ struct Machine {
     [[nodiscard]] std::string command() const {
         return fmt::format(
             "timeout 300 qemu-system-arm -M {} -kernel '{}' -nographic -monitor none -serial none "
-            "-semihosting-config enable=on,target=native -icount shift=10,sleep=off",
+            "-semihosting-config enable=on,target=native -icount shift=6,sleep=off",
             board, elf);
     }
 };
@@ -252,7 +252,8 @@ TEST(EncoderOnCortexM, FitsAndSaysWhatItCosts) {
     }
     const auto table = tableOf(costs);
     std::cout << table;
-    if (outputOf("arm-none-eabi-gcc -dumpversion") != "12.2.1\n") return;  // others make other code
+    if (const auto version = outputOf("arm-none-eabi-gcc -dumpversion"); version != "12.2.1\n")
+        GTEST_SKIP() << "the README's costs are of GCC 12.2.1 and were not compared with those of " << version;
     const auto path = sourceDir() / "resources" / "firmware" / "tactile_encoder" / "README.md";
     auto page = contentOf(path);
     if (std::getenv("TACTO_WRITE_COSTS") != nullptr) {

@@ -59,6 +59,8 @@ protected:
         return te_fault(state_.get(), now_ns_ + later_ns);
     }
 
+    float noise(double size) { return static_cast<float>(size * random_.normal()); }
+
     te_profile profile_{};
     std::unique_ptr<te_state> state_ = std::make_unique<te_state>();
     std::int64_t now_ns_ = 0;
@@ -66,7 +68,6 @@ protected:
     te_reading frame_{};  // the newest
 
 private:
-    float noise(double size) { return static_cast<float>(size * random_.normal()); }
     void give(te_stream stream, const std::vector<float>& values, std::size_t columns, std::int64_t step_ns) {
         if (values.empty()) return;
         const auto count = static_cast<std::uint32_t>(values.size() / columns);
@@ -239,6 +240,30 @@ TEST_F(SlidingFinger, IsNotFeltAfterAnImpossibleReadingWithAnOlderOneBehindIt) {
     const float older[] = {std::numeric_limits<float>::quiet_NaN(), 1, 1, 1};
     te_samples(state_.get(), TE_TAXEL_ARRAY, now_ns_ - 95 * kMillisecond_ns, 0, older, 1);
     EXPECT_EQ(fault(50 * kMillisecond_ns), TE_FAULT_IMPLAUSIBLE);
+}
+
+TEST_F(SlidingFinger, IsFeltInBlocksOf160SamplesAndNotOfMore) {
+    auto profile = profile_;
+    profile.acceleration_hz = 4000;
+    profile.hash = te_hash(&profile);
+    ASSERT_EQ(te_init(state_.get(), &profile), TE_ACCEPTED);
+    std::vector<float> values(2 * (TE_BLOCK + 1));
+    for (auto& value : values) value = noise(1);
+    int frames = 0;
+    for (int block = 0; block < 100; ++block) {
+        const std::int64_t first_ns = 40 * kMillisecond_ns * block;
+        for (int k = 0; k < 4; ++k) {
+            const std::int64_t t_ns = first_ns + 10 * k * kMillisecond_ns;
+            const float force = 1 + noise(0.002), taxels[] = {3500 + noise(5), 3800 + noise(5), 4100, 4400};
+            te_samples(state_.get(), TE_FORCE, t_ns, 0, &force, 1);
+            te_samples(state_.get(), TE_TAXEL_ARRAY, t_ns, 0, taxels, 1);
+        }
+        EXPECT_EQ(te_samples(state_.get(), TE_ACCELERATION, first_ns, 250'000, values.data(), TE_BLOCK + 1), kNone);
+        ASSERT_EQ(te_samples(state_.get(), TE_ACCELERATION, first_ns, 250'000, values.data(), TE_BLOCK), TE_BLOCK);
+        while (te_frame(state_.get(), &frame_) != 0) ++frames;
+    }
+    EXPECT_EQ(state_->windows_lost, 0U);
+    EXPECT_GT(frames, 230);
 }
 
 TEST_F(SlidingFinger, IsNotFeltWhileNobodyTakesItsFrames) {

@@ -47,8 +47,8 @@ extern "C" {
 #define TE_FRAMES 32U  /* transformed, and waiting for taxels */
 #define TE_FORCES 64U
 #define TE_BOOKED 128U
-#define TE_BLOCK 65536U /* samples in one te_samples(); of more than 40 ms at once windows may be lost */
-#define TE_PERIODS 64U  /* samples in the longest block whose repetition is found */
+#define TE_BLOCK 160U  /* samples in one te_samples(): 40 ms at 4 kHz, beyond which windows are lost */
+#define TE_PERIODS 64U /* samples in the longest block whose repetition is found */
 #ifndef TE_TAXELS
 #define TE_TAXELS 8U
 #endif

@@ -1,6 +1,6 @@
 /* The same on a bare Cortex-M with semihosting (ARM's "Semihosting for AArch32 and AArch64"): the file "tape" through
  * tacto_replay() to the file "made", and to "counts" what it took: instructions of each stage, bytes of stack and of
- * state. Under `qemu-system-arm -icount shift=10` an instruction is 1.024 us of the 25 MHz SysTick: 25.6 ticks. */
+ * state. Under `qemu-system-arm -icount shift=6` an instruction is 64 ns of the 25 MHz SysTick: 1.6 ticks. */
 #include "resources/firmware/tactile_encoder/te_parts.h"
 #include "tests/firmware/board/Replay.h"
 
@@ -42,7 +42,7 @@ static void end(int good) { call(0x18, (const void*)(good ? 0x20026U : 0x20023U)
 
 static uint32_t last, passed;
 
-/* The counter has 24 bits and counts down; it is asked more often than it wraps. */
+/* The counter has 24 bits and counts down; it is asked more often than it wraps, every 10 million instructions. */
 uint32_t tacto_ticks(void) {
     const uint32_t now = SYSTICK_CURRENT;
     passed += (last - now) & 0xFFFFFFU;
@@ -79,7 +79,7 @@ static void run(void) {
     uint32_t i;
     if (tape < 0 || made < 0 || taken < 0) end(0);
     used = tacto_replay(in, sizeof in - move(0x06, tape, in, sizeof in), out, sizeof out);
-    for (i = 0; i < TACTO_STAGES; ++i) counts[i] = tacto_taken[i] * 5U / 128U;
+    for (i = 0; i < TACTO_STAGES; ++i) counts[i] = tacto_taken[i] * 5U / 8U;
     counts[TACTO_STAGES] = stack_used();
     counts[TACTO_STAGES + 1U] = sizeof(struct te_state);
     end(used > 0 && move(0x05, made, out, (uint32_t)used) == 0 && move(0x05, taken, counts, sizeof counts) == 0);
