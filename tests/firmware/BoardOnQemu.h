@@ -15,7 +15,10 @@ namespace tacto::test {
         {StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, 3, 4000, "acceleration"},
         {StreamKind::Force, StreamUnit::Newton, 1, 200, "force"},
         {StreamKind::Taxels, StreamUnit::Pascal, 8, 200, "taxels"}};
-    return encoderProfile(streams, {}, {}, output).value();
+    EncodingProfile encoding;
+    encoding.train.pulses = 3;
+    encoding.train.rate = Hertz(200);
+    return encoderProfile(streams, {}, encoding, output).value();
 }
 
 }  // namespace tacto::test
