@@ -1,6 +1,8 @@
 // A whole board as its maker compiles it for a Cortex-M, under QEMU behind a pseudo-terminal: it passes what an
 // emulated board passes there, and its encoder makes of its samples what the same code makes of them here, to the last
 // bit.
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -15,7 +17,6 @@
 #include "drivers/sensor_board/Messages.h"
 #include "drivers/sensor_board/UsbSensorBoards.h"
 #include "resources/firmware/sensor_board/tsb_board.h"
-#include "tests/drivers/conformance/SensorConformance.h"
 #include "tests/drivers/sensor_board/BoardOnPty.h"
 #include "tests/firmware/BoardOnQemu.h"
 #include "tests/support/InTime.h"
@@ -104,43 +105,29 @@ private:
     int held_ = -1;
 };
 
-/// Any board behind a pseudo-terminal, opened by its path.
+/// Opens a board by its path, as the programs do, and reads until it gave 4000 samples of acceleration.
 template <class Board>
-class TerminalRig final : public SensorRig {
-public:
-    template <class... Arguments>
-    explicit TerminalRig(Arguments&&... arguments)
-        : board_(std::make_unique<Board>(std::forward<Arguments>(arguments)...)) {
-        accepted(
-            driver_->open(*DeviceUri::parse("sensor:?emulated=yes&tty=" + board_->path()), {}, {clock_}, devices_));
-    }
-    TactileSensor& device() override { return *devices_.sensor; }
-    const Clock& clock() const override { return clock_; }
-    void wait(Seconds duration) override { std::this_thread::sleep_for(toInstant(duration)); }
-    bool unplug() override {
-        board_.reset();
-        return true;
-    }
-
-private:
-    SteadyClock clock_;
+void expectIsRead(const Board& board) {
+    const SteadyClock clock;
     // Keeps the computer's own USB out of this test.
-    std::unique_ptr<Driver> driver_ = makeSensorBoardDriver(
+    const auto driver = makeSensorBoardDriver(
         makeUsbSensorBoards([] { return fail(ErrorCode::Io, "no USB here"); }, sciencemode::TtyTransport::open));
-    std::unique_ptr<Board> board_;
-    DeviceSet devices_;
-};
-
-std::vector<SensorKind> kinds() {
-    static const SteadyClock clock;
-    std::vector<SensorKind> all{{"Emulated", [] { return std::make_unique<TerminalRig<BoardOnPty>>(clock); }}};
-    if (std::string_view(TACTO_WHOLE_BOARD).empty()) return all;
-    all.push_back({"CortexM4F", [] { return std::make_unique<TerminalRig<BoardOnQemu>>(); }});
-    return all;
+    DeviceSet devices;
+    const auto opened =
+        driver->open(*DeviceUri::parse("sensor:?emulated=yes&tty=" + board.path()), {}, {clock}, devices);
+    ASSERT_IN_TIME(opened) << opened.error().message;
+    std::vector<SampleBlock> blocks(devices.sensor->streams().size());
+    ASSERT_EQ(blocks.size(), 3U);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (blocks[0].samples() < 4000 && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        ASSERT_IN_TIME(devices.sensor->read(blocks));
+    }
+    EXPECT_IN_TIME(blocks[0].samples() >= 4000U);
+    EXPECT_IN_TIME(dynamic_cast<ReportingDevice&>(*devices.sensor).deviceReport().losses == 0U);
+    for (const auto& block : blocks)
+        EXPECT_TRUE(std::is_sorted(block.t_s.begin(), block.t_s.end(), std::less_equal<>()));
 }
-
-INSTANTIATE_TEST_SUITE_P(BoardOnTerminal, SensorConformance, testing::ValuesIn(kinds()),
-                         [](const testing::TestParamInfo<SensorKind>& of) { return of.param.name; });
 
 /// The encoder here, fed with the blocks that the board sent.
 class EncoderHere {
@@ -207,6 +194,13 @@ void expectWithin(FieldReader& in, const te_profile& profile, std::uint64_t& ons
 }
 
 }  // namespace
+
+TEST(BoardOnQemu, IsReadAsAnEmulatedBoardIs) {
+    if (std::string_view(TACTO_WHOLE_BOARD).empty()) GTEST_SKIP() << kNoBoard;
+    const SteadyClock clock;
+    expectIsRead(BoardOnPty(clock));
+    expectIsRead(BoardOnQemu());
+}
 
 TEST(BoardOnQemu, EncodesItsSamplesToTheBitsThatTheSameCodeMakesHere) {
     if (std::string_view(TACTO_WHOLE_BOARD).empty()) GTEST_SKIP() << kNoBoard;
