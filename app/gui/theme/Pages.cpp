@@ -1,12 +1,28 @@
 #include "app/gui/theme/Pages.h"
 
+#include <QAccessible>
+#include <QAccessibleWidget>
 #include <algorithm>
+#include <mutex>
 
 #include "app/gui/theme/Theme.h"
 
 namespace tacto::gui {
 
+namespace {
+
+/// What a screen reader sees of a scroll area. Qt's own (6.4) reads past the end of its list where the reader asks for
+/// a scroll bar that has been hidden since it was counted.
+QAccessibleInterface* seenArea(const QString& name, QObject* object) {
+    if (name != "QScrollArea" || !object->isWidgetType()) return nullptr;
+    return new QAccessibleWidget(static_cast<QWidget*>(object), QAccessible::Client);
+}
+
+}  // namespace
+
 ScrollingPage::ScrollingPage(QWidget* parent) : QScrollArea(parent) {
+    static std::once_flag installed;
+    std::call_once(installed, [] { QAccessible::installFactory(seenArea); });
     setFrameShape(QFrame::NoFrame);
     setWidgetResizable(true);
     setFocusPolicy(Qt::NoFocus);

@@ -1,4 +1,5 @@
 // Tests the design's rules on colour: lines also differ by dash, text is legible, only STOP and faults are red.
+#include <QAccessible>
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
@@ -9,6 +10,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QScrollArea>
 #include <QSlider>
 #include <QSpinBox>
 #include <QTabBar>
@@ -406,6 +408,21 @@ TEST(ElidedLabel, ShowsNothingWhereAFewLettersAloneHaveRoom) {
     label.setText("12");
     label.resize(30, 20);
     EXPECT_EQ(label.shownText(), "12") << "a short text is whole";
+}
+
+/// A screen reader counts the children and then asks for one; between the two a scroll bar may have been hidden.
+TEST(Pages, AScreenReaderThatAsksForAScrollBarThatIsGoneGetsNone) {
+    RecordProperty("hazard", "H10");
+    gui::ScrollingPage page(nullptr);
+    QScrollArea plain;
+    for (QScrollArea* area : {static_cast<QScrollArea*>(&page), &plain}) {
+        auto* seen = QAccessible::queryAccessibleInterface(area);
+        ASSERT_NE(seen, nullptr);
+        ASSERT_GE(seen->childCount(), 1);
+        EXPECT_EQ(seen->child(0)->object(), area->viewport());
+        for (const int index : {-1, seen->childCount(), seen->childCount() + 100})
+            EXPECT_EQ(seen->child(index), nullptr) << index;
+    }
 }
 
 }  // namespace
