@@ -14,6 +14,7 @@
 #include <QLineEdit>
 #include <QListView>
 #include <QProcess>
+#include <QPushButton>
 #include <QScreen>
 #include <QSettings>
 #include <QShortcut>
@@ -23,6 +24,7 @@
 #include <utility>
 
 #include "app/gui/theme/Building.h"
+#include "app/gui/theme/Theme.h"
 #include "app/gui/theme/Told.h"
 
 namespace tacto::gui {
@@ -91,6 +93,7 @@ public:
             grid->addWidget(says_, grid->rowCount(), 0, 1, grid->columnCount());
         if (auto* name = findChild<QLineEdit*>("fileNameEdit"))
             connect(name, &QLineEdit::textChanged, says_, &QLabel::hide);
+        if (makes_) offerNames();
         constexpr int kWidth = 110;  // characters; enough for the names of sessions with size and date
         resize(std::max(width(), kWidth * fontMetrics().averageCharWidth()), height());
     }
@@ -123,6 +126,17 @@ private:
         for (const auto& folder : {QSettings().value(kLastFolder).toString(), documents + "/Tactoscope", documents})
             if (!folder.isEmpty() && QFileInfo(folder).isDir()) return folder;
         return QDir::homePath();
+    }
+    /// Qt greys the button out for a folder that is not there yet, though Return takes its name.
+    void offerNames() {
+        auto* name = findChild<QLineEdit*>("fileNameEdit");
+        auto* box = findChild<QDialogButtonBox*>();
+        auto* choose = box == nullptr ? nullptr : box->button(QDialogButtonBox::Open);
+        if (name == nullptr || choose == nullptr) return;
+        const auto follow = [name, choose] { choose->setEnabled(!name->text().trimmed().isEmpty()); };
+        onEvent(*choose, QEvent::EnabledChange, follow);
+        connect(name, &QLineEdit::textChanged, choose, follow);
+        follow();
     }
     void say(const QString& what) {
         says_->setText(what);

@@ -1,6 +1,10 @@
 // Tests the program's file chooser while a session is being recorded.
+#include <QDialogButtonBox>
+#include <QDir>
 #include <QFileDialog>
+#include <QLineEdit>
 #include <QPointer>
+#include <QPushButton>
 #include <QTemporaryDir>
 #include <QTest>
 #include <QTreeView>
@@ -75,6 +79,32 @@ TEST(FileChooser, OpensNoneOfTheFilesThatItLists) {
         ASSERT_IN_TIME(comesTrue([&] { return dialog.isNull(); }));
     }
     ::close(held);
+}
+
+TEST(FileChooser, ANewFolderIsMadeByTheButtonToo) {
+    const QTemporaryDir folder;
+    QWidget asking;
+    asking.show();
+    QStringList chosen;
+    const gui::FileQuestion question{.title = "A new or empty folder",
+                                     .wants = gui::FileQuestion::Wants::NewFolder,
+                                     .folder = folder.path(),
+                                     .name = "shared"};
+    gui::askForFile(asking, question, [&](const QString& path) { chosen << path; });
+    auto* dialog = asking.findChild<QFileDialog*>();
+    ASSERT_NE(dialog, nullptr);
+    ASSERT_IN_TIME(comesTrue([&] { return dialog->isVisible(); }));
+    letLive(300);  // the chooser lists the folder on its own thread, and looks at its button then
+    auto* choose = dialog->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Open);
+    auto* name = dialog->findChild<QLineEdit*>("fileNameEdit");
+    EXPECT_TRUE(choose->isEnabled()) << name->text().toStdString();
+    name->clear();
+    EXPECT_FALSE(choose->isEnabled()) << "without a name";
+    QTest::keyClicks(name, "mine");
+    ASSERT_TRUE(choose->isEnabled());
+    choose->click();
+    ASSERT_EQ(chosen, QStringList{folder.filePath("mine")});
+    EXPECT_TRUE(QDir(chosen.front()).exists());
 }
 
 TEST(FileChooser, ShowsNamesAndDatesWhole) {
