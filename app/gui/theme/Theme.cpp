@@ -99,10 +99,10 @@ void makePrimary(QPushButton& button, bool primary) { setStyled(button, "role", 
 void makeQuiet(QPushButton& button) { setStyled(button, "role", "quiet"); }
 
 void letYield(QWidget& page, bool yields) {
+    // For the icons on them, which get their colour when painted (Icons.cpp); also after another window that yielded.
+    qApp->setProperty("primariesYield", yields);
     if (page.property("yields").toBool() == yields) return;
     page.setProperty("yields", yields);
-    qApp->setProperty("primariesYield",
-                      yields);  // for the icons on them, which get their colour when painted (Icons.cpp)
     for (auto* button : page.findChildren<QPushButton*>()) {
         if (button->property("role") != "primary") continue;
         button->style()->unpolish(button);
