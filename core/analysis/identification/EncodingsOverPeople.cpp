@@ -194,8 +194,8 @@ std::vector<std::string> encodingSentences(const EncodingsOverPeople& found) {
     std::vector<std::string> all;
     for (const auto& pair : found.pairs) {
         const auto n = pair.people.size();
-        const auto mean =
-            fmt::format("{} minus {}: {} percentage points", pair.a, pair.b, pointsText(pair.accuracy.value));
+        const auto mean = fmt::format("Right answers, {} minus {}: {} percentage points", pair.a, pair.b,
+                                      pointsText(pair.accuracy.value));
         if (n == 1) {
             all.push_back(
                 fmt::format("Which of {} and {} is better is not decided: only one of the {} had both. {} "
