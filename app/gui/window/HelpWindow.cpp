@@ -41,14 +41,17 @@ protected:
     }
 };
 
-/// Wraps long commands, which Qt would keep on one line.
+/// Wraps long commands, which Qt would keep on one line, and leaves room below them, which Qt does not.
 void wrapCommands(QTextDocument& page) {
+    constexpr int kIndent = 12, kBelow = 8;
     QTextCursor cursor(&page);
     for (auto block = page.begin(); block.isValid(); block = block.next()) {
         if (!block.blockFormat().nonBreakableLines()) continue;
         cursor.setPosition(block.position());
         auto format = block.blockFormat();
         format.setNonBreakableLines(false);
+        format.setLeftMargin(scaledPx(kIndent));
+        if (!block.next().blockFormat().nonBreakableLines()) format.setBottomMargin(scaledPx(kBelow));
         cursor.setBlockFormat(format);
     }
 }

@@ -187,6 +187,12 @@ TEST_F(Habits, F1OpensTheGuideAtTheWorkspaceInFront) {
         browser->setSource(name);
         EXPECT_EQ(pageOf(*guide), name);
         EXPECT_EQ(browser->document()->begin().blockFormat().headingLevel(), 1) << name.toStdString();
+        for (auto block = browser->document()->begin(); block.isValid(); block = block.next()) {
+            if (!block.text().startsWith("tactoscope-cli ")) continue;
+            const auto room = block.blockFormat(), below = block.next().blockFormat();
+            EXPECT_GT(room.leftMargin(), 0) << block.text().toStdString();
+            EXPECT_TRUE(room.bottomMargin() > 0 || below.leftMargin() > 0) << block.text().toStdString();
+        }
         EXPECT_EQ(browser->horizontalScrollBar()->maximum(), 0) << name.toStdString() << " is read whole";
         shot(*guide, "guide-" + name.section('.', 0, 0));
         back->click();
