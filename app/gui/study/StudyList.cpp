@@ -143,9 +143,8 @@ void StudyList::askForConsent(const QString& code) { openDialog(consentDialog(st
 
 QWidget* StudyList::buildParticipants() {
     auto* holder = new QWidget(this);
-    auto* row = rowIn(*holder);
+    auto* row = rowIn(*holder, 12);
     row->addWidget(strongLabel(tr("Participants"), holder));
-    row->addStretch();
     auto* enrol = pageButton(tr("Enrol…"), "enrol", tr("A new participant, who is given a code."), holder);
     connect(enrol, &QPushButton::clicked, this, [this] {
         say({});
@@ -156,6 +155,7 @@ QWidget* StudyList::buildParticipants() {
         openDialog(enrolDialog(study_, consentWanted, this));
     });
     row->addWidget(enrol);
+    row->addStretch();
     all_.push_back(enrol);
     return holder;
 }
