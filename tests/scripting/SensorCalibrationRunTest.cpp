@@ -1,5 +1,6 @@
 // The sensor calibration on the simulated bench: its results, its refusals, and what happens if something breaks or the
 // operator stops it.
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -285,6 +286,7 @@ TEST(SensorCalibrationRun, ListensOnTheSteadyClockToo) {
     const auto& rest = outcome.results["rest"];
     EXPECT_EQ(rest["taxel_baseline"].size(), 8U);
     EXPECT_GT(rest["mean_square"].get<double>(), 0);
+    EXPECT_NEAR(std::pow(rest["rms"].get<double>(), 2), rest["mean_square"].get<double>(), 1e-9);
     EXPECT_IN_TIME(rest["force"]["n"].get<int>() >= 50);  // 200 Hz; on a busy machine some samples come late
     EXPECT_NEAR(outcome.results["at"]["force"].get<double>(), 1.96, 0.1);
     EXPECT_TRUE(rig.outputOff());

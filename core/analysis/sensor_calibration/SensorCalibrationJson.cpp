@@ -60,9 +60,10 @@ ResultRecord<FingertipRest> describeRest() {
     using F = FingertipRest;
     const auto levels = [](auto member) { return in(&F::levels, member); };
     ResultRecord<F> all;
-    all.shown(number("Acceleration, 5 Hz to 1 kHz: mean square", "mean_square"),
-              levels(in(&SensorRest::levels, &RestLevels::slidingMeanSquare)));
-    all.shown(text("in the square of", "unit"), symbolAt(levels(&SensorRest::restUnit)));
+    all.kept("mean_square", levels(in(&SensorRest::levels, &RestLevels::slidingMeanSquare)));
+    all.shown(number("Acceleration, 5 Hz to 1 kHz: RMS", "rms", "@unit"),
+              [](const F& rest) { return std::sqrt(rest.levels.levels.slidingMeanSquare); });
+    all.kept("unit", symbolAt(levels(&SensorRest::restUnit)));
     all.shown(number("Taxels' floor", "taxel_floor", "@taxel_unit"),
               levels(in(&SensorRest::levels, &RestLevels::taxelFloor)));
     all.kept("taxel_unit", symbolAt(levels(&SensorRest::taxelUnit)));

@@ -479,7 +479,8 @@ std::vector<HostFunction> fingertipFunctions() {
              "Disarms, lifts the finger (question rest on a rig that cannot) and reads the fingertip without contact.",
          .members = restMembers(),
          .returns =
-             ": mean_square is the power of the acceleration at rest, in unit squared, and null without acceleration; "
+             ": mean_square is the power of the acceleration at rest, in unit squared, rms its root in unit; both are "
+             "null without acceleration; "
              "force is a statistic in the sensor's unit, force_in_use { mean, unit, u } as the profile scales it, u "
              "the standard uncertainty of the mean.",
          .errors = kErrors,
