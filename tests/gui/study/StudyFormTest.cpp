@@ -101,6 +101,10 @@ TEST(StudyForm, LeftAsItIsItHoldsTheDefaults) {
 
 TEST_F(StudyInThePage, ANewStudyIsMade) {
     RecordProperty("hazard", "H11");
+    const auto leads = [this](const char* name) {
+        return page.findChild<QPushButton*>(name)->property("role").toString() == "primary";
+    };
+    EXPECT_TRUE(leads("newStudyWanted") && !leads("openStudy")) << "there is none to open yet";
     press("newStudyWanted");
     auto* made = page.findChild<gui::NewStudyPage*>();
     ASSERT_TRUE(made->isVisible());

@@ -137,6 +137,8 @@ TEST_F(StudyPageTest, WhatWasOpenLastIsOfferedAgainWhileItIsThere) {
     auto* again = page.findChild<QPushButton*>("recentStudy");
     ASSERT_NE(again, nullptr);
     EXPECT_THAT(again->text().toStdString(), HasSubstr("Four conditions"));
+    EXPECT_EQ(page.findChild<QPushButton*>("openStudy")->property("role").toString(), "primary");
+    EXPECT_EQ(page.findChild<QPushButton*>("newStudyWanted")->property("role").toString(), "");
     shot(page, "recent-study");
     click(*again);
     ASSERT_IN_TIME(comesTrue([this] { return dialog("passphraseDialog") != nullptr; }));

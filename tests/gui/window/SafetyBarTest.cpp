@@ -242,7 +242,7 @@ TEST_F(Bar, OffersToArmOnlyIfEveryCauseOfAFaultAllowsIt) {
 
 TEST_F(Bar, AGraveFaultIsNotResetByHand) {
     RecordProperty("hazard", "H2");
-    ASSERT_IN_TIME(armed({"sim:stimulator?fault=stuck-on@1s"}));
+    ASSERT_IN_TIME(armed({"sim:stimulator?fault=stuck-on@5s", "sim:"}));
     controller.drive(DriveSource::Manual, 0, 1);
     const auto faulted = [this] {
         bar.refresh(controller.telemetry());
