@@ -71,8 +71,8 @@ void printCompared(const Compared& compared) {
     if (compared.simulated) say("SIMULATED: no number here was measured on hardware.\n");
     say("{} frames and {} trains that both made; the largest differences:\n", found.frames, found.trains);
     TextTable table({"", ">differs by", "accepted"});
-    table.add({"roughness R", fmt::format("{:.2g}", found.maxR), "0.01"});
-    table.add({"pressure P", fmt::format("{:.2g}", found.maxP), "0.002"});
+    table.add({"roughness R", fmt::format("{:.2g}", found.maxR), fmt::format("{}", found.acceptedR)});
+    table.add({"pressure P", fmt::format("{:.2g}", found.maxP), fmt::format("{}", found.acceptedP)});
     table.add({"amplitude", fmt::format("{:.2g} %", 100 * found.maxAmplitude),
                fmt::format("{:.2g} %", 100 * found.acceptedAmplitude)});
     table.add({"onset", fmt::format("{:.2g} ms", 1e3 * found.maxOnset_s),

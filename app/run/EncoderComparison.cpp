@@ -16,8 +16,7 @@ namespace {
 
 constexpr double kTrainsApart_s = 0.025;  // half the shortest interval of the board
 constexpr double kBoardFrames_s = 4e-3;   // through its clock and its line
-constexpr double kBoardAmplitude = 0.05;
-constexpr double kMaxR = 0.01, kMaxP = 0.002;
+constexpr double kBoardR = 0.02, kBoardP = 0.005, kBoardAmplitude = 0.05;
 
 te_stream streamOf(StreamKind kind) noexcept {
     return kind == StreamKind::Acceleration ? TE_ACCELERATION : kind == StreamKind::Force ? TE_FORCE : TE_TAXEL_ARRAY;
@@ -125,7 +124,7 @@ void compareFrames(const RoughnessFrame& bench, const RoughnessFrame& board, Enc
 }  // namespace
 
 bool EncoderAgreement::holds() const noexcept {
-    return refusedAlike && maxR <= kMaxR && maxP <= kMaxP && maxOnset_s <= acceptedOnset_s &&
+    return refusedAlike && maxR <= acceptedR && maxP <= acceptedP && maxOnset_s <= acceptedOnset_s &&
            (maxAmplitude <= acceptedAmplitude || (maxAmplitudeSteps > 0 && maxAmplitudeSteps <= 1 + 1e-6));
 }
 
@@ -290,6 +289,8 @@ EncoderAgreement EncoderComparison::agreement() const {
     EncoderSide ours = upTo(bench(), end_s);
     ours.refused_s.clear();  // a board sends no train that it refuses
     found = agreementOf(ours, upTo(board(), end_s), state_->step, kBoardFrames_s);
+    found.acceptedR = kBoardR;
+    found.acceptedP = kBoardP;
     found.acceptedOnset_s = kTrainsApart_s;
     found.acceptedAmplitude = kBoardAmplitude;
     return found;

@@ -43,8 +43,8 @@ struct EncoderAgreement {
     bool refusedAlike = true;
     std::string unlike;  ///< the first thing that one side alone has, in a sentence; empty if there is none
 
-    double acceptedOnset_s = 0, acceptedAmplitude = 0.005;  ///< what may lie between trains
-    /// |dR| at most 0.01, |dP| at most 0.002, onsets and amplitudes as accepted, amplitudes also within one step.
+    double acceptedR = 0.01, acceptedP = 0.002, acceptedOnset_s = 0, acceptedAmplitude = 0.005;  ///< at most
+    /// True if nothing is above what is accepted, amplitudes also within one step.
     [[nodiscard]] bool holds() const noexcept;
 };
 
@@ -75,8 +75,10 @@ public:
 
     [[nodiscard]] const EncoderSide& bench() const noexcept;
     [[nodiscard]] const EncoderSide& board() const noexcept;
-    /// Onsets may differ by a sample of acceleration, or 1 ms, amplitudes by 0.5 %. With a board, whose turns are not
-    /// the bench's and whose samples come in blocks, so that a train may go by the frame before: by 25 ms and 5 %.
+    /// Onsets may differ by a sample of acceleration, or 1 ms. More is accepted of a board: 25 ms and 5 % of amplitude,
+    /// because its turns are not the bench's and its samples come in blocks, so that a train may go by the frame
+    /// before; 0.02 of R and 0.005 of P, because the bench maps its stamps and may be off by a millisecond while force
+    /// changes.
     [[nodiscard]] EncoderAgreement agreement() const;
 
 private:
