@@ -198,8 +198,8 @@ RunResult ProtocolRun::finish() {
         if (notStarted_->code == ErrorCode::Stopped) result.outcome.verdict = ScriptVerdict::Stopped;
         static_cast<void>(session.event(opened_->clock->now(), "script not started", {{"why", notStarted_->message}}));
     }
+    result.leftIn = presentFault();  // asked first, so that a fault that comes meanwhile is counted below
     result.stoppedBySafety = endedBySafety(result.outcome, bench());
-    result.leftIn = presentFault();
     if (check_) check_->area = bench().profile().electrodeArea;  // as used in the run
     opened_->bench.reset();
     result.lsl = opened_->endLsl();
@@ -214,17 +214,21 @@ RunResult ProtocolRun::finish() {
         result.troubles.push_back(
             {ErrorCode::Io, fmt::format("the session {} is {}: {}", result.session.string(), nameOf(kept->status),
                                         kept->problems.empty() ? "" : kept->problems.front())});
+    // A check with wider tolerances than the laboratory's own leaves no fault.
+    const bool counts = check_ && widerThan(check_->tolerances, ownTolerances()).empty();
     endCheck(result);
     result.weighTroubles();
     if (checked_) {
         Result<void> cleared = fail(ErrorCode::NotArmed, "the safety check did not pass");
-        if (result.verdict() == nameOf(ScriptVerdict::Pass)) {
+        const bool calm = !result.leftIn && !result.stoppedBySafety;
+        if (counts && calm && result.verdict() == nameOf(ScriptVerdict::Pass)) {
             cleared = clearChecked(*checked_, *opened_->clock);
             if (!cleared) result.troubles.push_back(cleared.error());
         }
         if (!cleared) {
-            if (!result.leftIn) result.leftIn = checked_;
-            result.leftIn->causes |= checked_->causes;
+            const auto more = result.leftIn ? result.leftIn->causes : 0;
+            result.leftIn = checked_;
+            result.leftIn->causes |= more;
         }
     }
     // Read from disk, like everything else (hazard H8).

@@ -155,7 +155,8 @@ void ControlLoop::noteState(Instant now) noexcept {
         shown_.causesCame = parts_.interlock.causesCame().news;  // read first: `fault` covers all that this counts
         if (const auto cause = parts_.interlock.cause()) shown_.fault = cause;
     }
-    shown_.grave = parts_.interlock.grave();
+    // What leaves such a fault is the safety check, which is a stimulator's.
+    shown_.grave = parts_.stimulator != nullptr ? parts_.interlock.grave() : std::nullopt;
     if (state == seenState_) return;
     const auto before = std::exchange(seenState_, state);
     const bool wasConnected = before != InterlockState::Disconnected;

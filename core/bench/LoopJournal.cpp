@@ -87,7 +87,7 @@ void LoopJournal::boardSilent(Instant at, std::string_view why) noexcept {
 
 void LoopJournal::boardTrainSkipped(Instant at, double late_s) noexcept {
     event(at, "board train skipped", {{"late_s", late_s}},
-          "a train of the board came too late or too early to be played");
+          "a train of the board was not played: late, early, or overtaken by a newer one or by its silence");
 }
 
 void LoopJournal::drive(Instant at, const DriveCommand& drive) noexcept {

@@ -62,6 +62,8 @@ bool TrainSeries::follow(const Command& made, Instant onset) noexcept {
     constexpr double kSingle = 1.001;
     constexpr Seconds kClocks{2e-3};
     wantNothing();
+    // Whatever intervals it states, its onsets may not come sooner than the profile lets pressure bring them.
+    if (last_ && Seconds(onset - last_->onset) + kClocks < encoder_.profile().intervalMin) return false;
     if (goesOn(onset)) {
         const auto most = encoder_.limited(last_->command, made, Seconds(onset - last_->onset) + kClocks);
         const bool permitted = made.amplitude <= most.amplitude * kSingle && made.interval * kSingle >= most.interval;

@@ -249,7 +249,7 @@ std::string silenceWords(std::uint32_t faults, std::uint32_t refusal) {
     }
     if (faults != 0) add(fmt::format("faults {:#x}, which are not known here", faults));
     if (refusal == TE_ACCEPTED) return words;
-    const auto why = wordsOf(static_cast<te_refusal>(refusal));
+    const auto why = refusal <= TE_METER ? wordsOf(static_cast<te_refusal>(refusal)) : std::string_view();
     add(why.empty() ? fmt::format("a train that it refuses for reason {}", refusal)
                     : fmt::format("a train that it refuses: {}", why));
     return words;

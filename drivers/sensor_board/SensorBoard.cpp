@@ -339,8 +339,11 @@ Result<void> SensorBoard::askToEncode(Encodes wanted) {
                     TE_LAYOUT);
     }
     if (state->refusal != TE_ACCEPTED || !state->encodes) {
-        return fail(ErrorCode::Device, "its encoder does not begin: the profile in it has {}",
-                    wordsOf(static_cast<te_refusal>(state->refusal)));
+        return fail(ErrorCode::Device, "its encoder does not begin: {}",
+                    state->refusal == TE_ACCEPTED ? std::string("it stays off, and gives no reason")
+                    : state->refusal <= TE_METER
+                        ? fmt::format("the profile in it has {}", wordsOf(static_cast<te_refusal>(state->refusal)))
+                        : fmt::format("it gives reason {}, which is not known here", state->refusal));
     }
     encoder_ = BoardEncoder{wanted == Encodes::Drives, state->hash};
     return {};

@@ -36,6 +36,8 @@ TEST(TrainSeries, AnotherEncodersTrainIsNoLargerStepThanTheProfilePermits) {
     EXPECT_FALSE(series.follow(command(24.1, 1), seconds(11))) << "stronger by more than 1.2";
     EXPECT_FALSE(series.command().has_value());
     EXPECT_FALSE(series.follow(command(20, 0.73), seconds(11))) << "sooner by more than 1.34";
+    EXPECT_FALSE(series.follow(command(20, 1), seconds(10.49))) << "whatever it states, before the shortest interval";
+    EXPECT_FALSE(series.follow(command(20, 1), seconds(10))) << "again";
     ASSERT_TRUE(series.follow(command(23.9, 0.76), seconds(11)));
     EXPECT_EQ(series.command(), command(23.9, 0.76));
     EXPECT_FALSE(series.due().has_value()) << "the other encoder says when";

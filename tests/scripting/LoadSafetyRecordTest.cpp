@@ -211,6 +211,9 @@ function run() { return verdict({ kind: "load-safety", verdict: "pass", reasons:
         EXPECT_TRUE(ProtocolRun::prepare(unfinished, registry));
     }
     EXPECT_TRUE(isLeft(unitFolders())) << "a check that did not begin";
+    const auto wide = order({{"area", "3"}, {"steps", "2"}, {"trains", "2"}, {"amplitude_tolerance", "19"}});
+    EXPECT_EQ(run(wide, false), "pass");
+    EXPECT_TRUE(isLeft(unitFolders())) << "a check that the laboratory's own tolerances may not pass";
     kills = 0;
     EXPECT_EQ(run(check, false), "pass");
     EXPECT_GT(kills, 5);

@@ -71,9 +71,13 @@ std::vector<NextStep> nextStepsAfter(const FinishedRun& run) {
     if (run.result.stoppedBySafety && std::ranges::any_of(run.order.uris, simulatesFault))
         steps.push_back(NextStep::WithoutFault);
     else if (const auto& fault = run.result.leftIn)
-        steps.push_back(fault->grave() && resultTraits(run.order.declaration.kind).kind != ResultKind::LoadSafety
-                            ? NextStep::SafetyCheck
-                            : NextStep::ResetFault);
+        steps.push_back(
+            fault->grave() &&
+                    std::ranges::any_of(run.result.devices,
+                                        [](const SessionDevice& device) { return device.is(Role::Stimulator); }) &&
+                    resultTraits(run.order.declaration.kind).kind != ResultKind::LoadSafety
+                ? NextStep::SafetyCheck
+                : NextStep::ResetFault);
     if (outcome.error || (!passed && !verdict.empty())) {
         const bool failedCheck = calibrates && memberAt(results, "type") == "check";
         steps.push_back(failedCheck && !outcome.error ? NextStep::Calibrate : NextStep::ChangeSettings);

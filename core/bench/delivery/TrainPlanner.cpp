@@ -163,19 +163,20 @@ Result<void> isOfTheProfile(const EncodedTrain& train, const EncodingProfile& pr
 }
 
 /// Returns the board's train as the bench would make it: the profile's own, at the board's amplitude. The amplitude may
-/// differ from the bench's for that command as much as a declared load from the measured one (20 %) and rounding (10 %)
-/// make it.
+/// differ from the bench's for that command by rounding (10 %), and that of a current source by a declared load beside
+/// the measured one (20 %).
 Result<PulseTrain> trainOfBoard(const EncodedTrain& train, const EncodingProfile& profile, const SourceTraits& source,
                                 std::optional<Ohms> impedance) {
-    constexpr double kOff = 0.3, kOffGrid = 1e-3;
+    constexpr double kOffGrid = 1e-3;
+    const double most = source.drive == Drive::Current ? 0.3 : 0.1;
     if (auto fits = isOfTheProfile(train, profile); !fits) return failure(fits);
     const auto own = trainFor(source.drive, profile, train.command, impedance);
     if (!own) return failure(own);
     const double level = levelOf(*own), step = source.amplitudeStep;
-    if (!(std::abs(train.amplitude - level) <= kOff * level)) {
+    if (!(std::abs(train.amplitude - level) <= most * level)) {
         return fail(ErrorCode::LimitExceeded,
-                    "the board makes {:.4g} {} of {:.4g} V, and the bench {:.4g}; within 30 % is expected",
-                    train.amplitude, amplitudeUnit(source.drive), train.command.value(), level);
+                    "the board makes {:.4g} {} of {:.4g} V, and the bench {:.4g}; within {:.0f} % is expected",
+                    train.amplitude, amplitudeUnit(source.drive), train.command.value(), level, 100 * most);
     }
     const double settable = step > 0 ? toNearest(train.amplitude, step) : train.amplitude;
     if (!(std::abs(settable - train.amplitude) <= std::max(kOffGrid * step, 1e-6 * train.amplitude))) {
@@ -211,11 +212,13 @@ Result<PlannedTrain> TrainPlanner::planWaiting(const Waiting& waiting, Instant n
     const auto& train = waiting.train;
     const auto made = trainOfBoard(train, encoder().profile(), source_, impedance ? impedance : armed_);
     if (!made) return failure(made);
+    // Of a voltage source what is played tells the step, where it is more than what was commanded.
+    const auto out = source_.drive == Drive::Voltage ? std::max(train.command, Volts(train.amplitude)) : train.command;
     const Command command{train.command, train.interval};
-    if (!series_.follow(command, toInstant(Seconds(train.onset_s)))) {
+    if (!series_.follow({out, train.interval}, toInstant(Seconds(train.onset_s)))) {
         return fail(ErrorCode::LimitExceeded,
-                    "the board commands {:.4g} V and {:.4g} s, a larger step from the last train than the profile "
-                    "permits",
+                    "the board commands {:.4g} V and {:.4g} s: a larger step from the last train, or sooner after it, "
+                    "than the profile permits",
                     command.amplitude.value(), command.interval.count());
     }
     return approve(programmedTrain(*made, encoder().profile(), source_, calibration_, command.amplitude), command,

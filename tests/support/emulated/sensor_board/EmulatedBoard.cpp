@@ -322,7 +322,8 @@ void EmulatedBoard::answer(const tsb_command& command, Instant now) {
             if (!settings_.encoder) return refuse(TSB_REASON_UNKNOWN_COMMAND);
             if (command.mode > TSB_MODE_ENCODE) return refuse(TSB_REASON_NOT_SUPPORTED);
             if (command.type == TSB_SET_ENCODER && running_) return refuse(TSB_REASON_RUNNING);
-            if (command.type == TSB_SET_ENCODER) mode_ = settings_.encoder->refusal == 0 ? command.mode : TSB_MODE_OFF;
+            if (command.type == TSB_SET_ENCODER)
+                mode_ = settings_.encoder->refusal == 0 ? command.mode : std::uint8_t{TSB_MODE_OFF};
             auto state = *settings_.encoder;
             state.mode = mode_;
             return queue(firstOf(frame, tsb_encode_encoder(frame.data(), command.token, &state)), now);
