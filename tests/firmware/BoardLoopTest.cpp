@@ -524,7 +524,16 @@ TEST_F(TactileBoard, IsNoneWithStreamsThatNoBoardHas) {
     for (const auto spoil : std::initializer_list<void (*)(tb_setup&)>{
              [](auto& s) { s.streams = 0; }, [](auto& s) { s.streams = 4; },
              [](auto& s) { s.configuration[2].kind = TSB_KIND_FORCE; },
-             [](auto& s) { s.configuration[1].columns = 17; }, [](auto& s) { s.configuration[1].scale[0] = NAN; },
+             [](auto& s) { s.configuration[1].columns = 17; },
+             [](auto& s) {
+                 s.configuration[0].columns = 4;
+                 std::fill_n(s.configuration[0].scale, 4, 1.0F);
+             },
+             [](auto& s) {
+                 s.configuration[1].columns = 2;
+                 std::fill_n(s.configuration[1].scale, 2, 1.0F);
+             },
+             [](auto& s) { s.configuration[2].columns = 1; }, [](auto& s) { s.configuration[1].scale[0] = NAN; },
              [](auto& s) { s.configuration[0].stream = 1; }, [](auto& s) { s.configuration[0].rate_mhz = 0; }}) {
         setup_ = sound;
         spoil(setup_);

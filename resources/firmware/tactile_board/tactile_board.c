@@ -31,11 +31,17 @@ static int unit_fits(const struct tsb_configuration* c) {
     return c->unit == TSB_UNIT_COUNT || c->unit == c->kind + (uint8_t)TSB_UNIT_METRE_PER_SECOND_SQUARED;
 }
 
+static int columns_fit(const struct tsb_configuration* c) {
+    if (c->kind == TSB_KIND_ACCELERATION) return c->columns >= 1U && c->columns <= 3U;
+    if (c->kind == TSB_KIND_FORCE) return c->columns == 1U;
+    return c->columns >= 2U && c->columns <= TSB_COLUMNS_MOST;
+}
+
 static int is_sound(const struct tsb_configuration* c) {
     uint8_t i;
     if (c->kind > TSB_KIND_TAXELS || !unit_fits(c) || c->flags > TSB_STREAM_ENABLED) return 0;
     if (c->rate_mhz < LOWEST_RATE_MHZ || c->rate_mhz > HIGHEST_RATE_MHZ) return 0;
-    if (tsb_block_most(c->columns, c->format) == 0U) return 0;
+    if (!columns_fit(c) || tsb_block_most(c->columns, c->format) == 0U) return 0;
     for (i = 0; i < c->columns; ++i) {
         if (!is_number(c->scale[i]) || c->scale[i] == 0.0F || !is_number(c->offset[i])) return 0;
         if (c->unit == TSB_UNIT_COUNT && (c->scale[i] != 1.0F || c->offset[i] != 0.0F)) return 0;
