@@ -10,17 +10,27 @@
  *     8 MHz crystal
  *
  * A timer has all twelve voltages converted 4000 times a second; of force and taxels a sample is the mean of twenty.
+ * Each analog line has a resistor to ground: a pulled sensor reads 0, no contact or a signal that stands still.
+ *
+ * The DAC's buffer gives 0.2 to 3.1 V. A train with a phase outside that (0.061 to 0.939 of FULL_SCALE), be it the weak
+ * second one of an asymmetric pulse, is refused: output stays off, and the board stops unless that train was waiting.
+ *
+ * PB13 is driven by the boot ROM (CAN 2) while BOOT0 is high: disconnect the stimulator while firmware is written.
+ * After a reset that is no power-on (watchdog, NRST, debugger) it plays nothing by itself: switch the power off and on.
  */
 #include "tactile_board.h"
 #include "tactile_profile.h"
 #include "tactile_pulses.h"
 
 #define FULL_SCALE 60.0F /* V or mA of the stimulator at 3.3 V */
-#define ALONE 0U         /* 1: it stimulates without a host */
+#define LEAST (FULL_SCALE * 0.2F / 3.3F)
+#define MOST (FULL_SCALE * 3.1F / 3.3F)
+#define ALONE 0U /* 1: it stimulates without a host */
 
 #define REGISTER(address) (*(volatile uint32_t*)(address))
 #define COPROCESSORS REGISTER(0xE000ED88U)
 #define INTERRUPTS_ON_32 REGISTER(0xE000E104U) /* 32 to 63 */
+#define PRIORITY(interrupt) (*(volatile uint8_t*)(0xE000E400U + (interrupt)))
 #define RCC(offset) REGISTER(0x40023800U + (offset))
 #define FLASH_ACR REGISTER(0x40023C00U)
 #define GPIOA(offset) REGISTER(0x40020000U + (offset))
@@ -28,6 +38,7 @@
 #define GPIOC(offset) REGISTER(0x40020800U + (offset))
 #define MODER 0x00U
 #define PULLS 0x0CU
+#define IDR 0x10U
 #define BSRR 0x18U
 #define AFRH 0x24U
 #define TIM2(offset) REGISTER(0x40000000U + (offset)) /* the clock, 1 MHz, 32 bits */
@@ -151,7 +162,7 @@ static int say(void* context, const uint8_t* frame, size_t size) {
 #define HALVES 8U
 
 /* Volts at 3.3 V and 12 bits, times what the sensor's data sheet says, until `sensor-calibration` knows better. */
-static const struct tb_setup setup = {
+static struct tb_setup setup = {
     .name = "Tactile board",
     .serial = "F405-0001",
     .firmware = "1",
@@ -189,8 +200,15 @@ static uint32_t half_read, part;
 static uint16_t rows[ROWS * CHANNELS];
 
 void on_samples(void) {
-    DMA2(0x08U) = 0x3DU; /* clear all of stream 0 */
-    half_us[half_end % HALVES] = now_us((void*)0);
+    const uint32_t flags = DMA2(0x00U) & 0x3DU; /* of stream 0: 0x10 first half, 0x20 second half */
+    const uint64_t us = now_us((void*)0);
+    DMA2(0x08U) = flags;
+    if ((flags & 0x30U) == 0x30U) {
+        half_us[half_end % HALVES] = us - 250U * ROWS;
+        ++half_end;
+    }
+    if ((flags & 0x30U) == 0U) return;
+    half_us[half_end % HALVES] = us;
     ++half_end;
 }
 
@@ -246,8 +264,9 @@ static struct te_train waiting; /* begins after the one that is played */
 static volatile uint32_t plays, waits;
 
 static void set_output(float level) {
-    const float size = (level < 0.0F ? -level : level) * (4095.0F / FULL_SCALE);
-    if (!(size > 0.0F && size <= 4095.0F)) {
+    float size = (level < 0.0F ? -level : level) * (4095.0F / FULL_SCALE);
+    if (size > 4095.0F) size = 4095.0F; /* by rounding only: begin() has judged it */
+    if (!(size > 0.0F)) {
         GPIOB(BSRR) = 0x30000000U; /* off, not negative */
         DAC(0x08U) = 0U;
         return;
@@ -264,10 +283,16 @@ static void timer_after(uint32_t ticks) {
     TIM5(TIM_CR1) = 9U; /* once */
 }
 
+static int can_give(float level) {
+    const float size = level < 0.0F ? -level : level;
+    return size >= LEAST && size <= MOST;
+}
+
 /* From now to the onset; a train begins at most 5 ms ahead. */
 static int begin(const struct te_train* train) {
     const int64_t ahead_us = train->onset_ns / 1000 - (int64_t)now_us((void*)0);
-    if (!(train->amplitude <= FULL_SCALE) || !tp_begin(&pulses, train, (float)PULSE_TICKS_PER_US)) return 0;
+    if (!tp_begin(&pulses, train, (float)PULSE_TICKS_PER_US)) return 0;
+    if (!can_give(pulses.level[0]) || !can_give(pulses.level[2])) return 0;
     plays = 1U;
     timer_after(ahead_us > 0 && ahead_us < 1000000 ? (uint32_t)ahead_us * PULSE_TICKS_PER_US : 1U);
     return 1;
@@ -322,7 +347,7 @@ void on_stop(void) {
     tb_stop(&board);
 }
 
-/* What nothing else expects: output off, and the watchdog makes a new start of it. */
+/* What nothing else expects, and a crystal that stops: output off, and the watchdog makes a new start of it. */
 void halt(void) {
     GPIOB(BSRR) = 0x30000000U;
     for (;;) {
@@ -334,6 +359,7 @@ static void begin_clocks(void) {
     RCC(0x00U) |= 1U << 16U;
     while (!(RCC(0x00U) & (1U << 17U))) {
     }
+    RCC(0x00U) |= 1U << 19U; /* where the crystal stops, NMI: halt() */
     FLASH_ACR = 0x705U;
     RCC(0x04U) = 8U | (336U << 6U) | (1U << 22U) | (7U << 24U);
     RCC(0x00U) |= 1U << 24U;
@@ -389,16 +415,28 @@ static void begin_converters(void) {
 }
 
 static void begin_lines(void) {
+    static const uint8_t lower[] = {IRQ_USART1, IRQ_EXTI15_10, IRQ_DMA2_0}; /* than the pulses */
+    uint32_t i;
     USART(0x08U) = 91U; /* 84 MHz / 921 600 */
     USART(0x0CU) = (1U << 13U) | (1U << 5U) | 0xCU;
     SYSCFG_EXTICR4 = (SYSCFG_EXTICR4 & ~0xF0U) | 0x20U;
     EXTI(0x0CU) |= 1U << 13U;
     EXTI(0x00U) |= 1U << 13U;
+    for (i = 0; i < sizeof lower; ++i) PRIORITY(lower[i]) = 0x10U;
     INTERRUPTS_ON_32 = (1U << (IRQ_USART1 - 32U)) | (1U << (IRQ_EXTI15_10 - 32U)) | (1U << (IRQ_TIM5 - 32U)) |
                        (1U << (IRQ_DMA2_0 - 32U));
 }
 
-/* A program that hangs for 0.1 s begins anew, with output off and a rest. */
+/* Whether a host was heard or the button pressed before another reset is not known: then it is not alone. */
+static void ask_for_power_on(void) {
+    if (!(RCC(0x74U) & (1U << 27U))) {
+        setup.alone = 0U;
+        setup.rested = 0U;
+    }
+    RCC(0x74U) |= 1U << 24U;
+}
+
+/* A program that hangs for 0.1 s, at most 0.2 s by the spread of its clock, begins anew: output off and a rest. */
 static void begin_watchdog(void) {
     IWDG(0x00U) = 0x5555U;
     IWDG(0x04U) = 2U;
@@ -413,6 +451,7 @@ __attribute__((noreturn)) void reset(void) {
     __asm__ volatile("dsb\n\tisb");
     for (at = data_low; at < data_high; ++at) *at = *from++;
     for (at = bss_low; at < bss_high; ++at) *at = 0U;
+    ask_for_power_on();
     begin_clocks();
     begin_pins();
     begin_timers();
@@ -421,6 +460,7 @@ __attribute__((noreturn)) void reset(void) {
     begin_lines();
     begin_watchdog();
     for (;;) {
+        if (!(GPIOC(IDR) & (1U << 13U))) tb_stop(&board); /* held, also since before the start */
         tb_step(&board);
         IWDG(0x00U) = 0xAAAAU;
     }

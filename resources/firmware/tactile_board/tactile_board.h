@@ -9,7 +9,8 @@
  *
  * Either the host plays or the board does, never both. Once a host has said anything that is sound, the board plays
  * nothing until its power was off: it sends the trains, and the host judges and plays them. A board that is to stand
- * `alone` plays its own until then.
+ * `alone` plays its own until then. What was heard and stopped lies in RAM, so `alone` and `rested` are for a power-on
+ * only: after any other reset (watchdog, button, debugger) the program clears both in its setup before tb_init().
  *
  * C99, static memory, nothing called but the encoder, the protocol and the five functions; sizeof(struct tb_board) is
  * what it needs. Times are those of the board's clock, in us since power-up. Thread-safety: one owner; tb_stop() alone
@@ -51,9 +52,10 @@ struct tb_hardware {
     size_t (*hear)(void* context, uint8_t* bytes, size_t most);
     /* Takes all of a frame for the host, or nothing: returns 1, or 0 where there is no room. */
     int (*say)(void* context, const uint8_t* frame, size_t size);
-    /* Prepares a timer that plays `train` from train->onset_ns on, or at once where that has passed, and ends it
-     * whatever becomes of this program: returns 1, or 0 where it cannot. With a null pointer: ends all output now. It
-     * is then also called from tb_stop(). Null where the board has no stimulator. */
+    /* Prepares a timer that plays `train` from train->onset_ns on, or at once where that has passed, and ends it while
+     * the program's interrupts run, even if its loop hangs; where both hang, a watchdog ends it within 0.2 s. Returns
+     * 1, or 0 where it cannot. With a null pointer: ends all output now. It is then also called from tb_stop(). Null
+     * where the board has no stimulator. */
     int (*play)(void* context, const struct te_train* train);
 };
 
@@ -64,8 +66,8 @@ struct tb_setup {
     struct tsb_configuration configuration[TB_STREAMS];
     struct tsb_calibration calibration[TB_STREAMS];
     const struct te_profile* profile; /* null: the board does not encode */
-    uint8_t alone;                    /* 1: it plays until it hears a host */
-    uint8_t rested;                   /* 1: nothing came out in the 8 s before tb_init(), as te_rested() */
+    uint8_t alone;                    /* 1: it plays until it hears a host. After a power-on only */
+    uint8_t rested; /* 1: nothing came out in the 8 s before tb_init(), as te_rested(). After a power-on only */
 };
 
 /* Its fields are the board's own but for `unsaved`. */
