@@ -67,17 +67,17 @@ std::vector<NextStep> nextStepsAfter(const FinishedRun& run) {
     const bool calibrates = traits.kind == ResultKind::StimulatorCalibration;
     const auto verdict = run.result.verdict();
     const bool passed = verdict == "pass";
+    // A massager takes the stimulator's place, and the safety check is a stimulator's.
+    const bool massaged =
+        std::ranges::any_of(run.result.devices, [](const SessionDevice& device) { return device.is(Role::Massager); });
     std::vector<NextStep> steps;
     if (run.result.stoppedBySafety && std::ranges::any_of(run.order.uris, simulatesFault))
         steps.push_back(NextStep::WithoutFault);
     else if (const auto& fault = run.result.leftIn)
-        steps.push_back(
-            fault->grave() &&
-                    std::ranges::any_of(run.result.devices,
-                                        [](const SessionDevice& device) { return device.is(Role::Stimulator); }) &&
-                    resultTraits(run.order.declaration.kind).kind != ResultKind::LoadSafety
-                ? NextStep::SafetyCheck
-                : NextStep::ResetFault);
+        steps.push_back(fault->grave() && !massaged &&
+                                resultTraits(run.order.declaration.kind).kind != ResultKind::LoadSafety
+                            ? NextStep::SafetyCheck
+                            : NextStep::ResetFault);
     if (outcome.error || (!passed && !verdict.empty())) {
         const bool failedCheck = calibrates && memberAt(results, "type") == "check";
         steps.push_back(failedCheck && !outcome.error ? NextStep::Calibrate : NextStep::ChangeSettings);
