@@ -42,8 +42,8 @@ private:
 
 class VirtualClock final : public Clock {
 public:
-    /// `pace`: how many times faster than real time it passes, above 0; nothing: as fast as possible. It stands still
-    /// while nobody moves it, as where a question waits for its answer.
+    /// `pace`: how many times faster than real time it passes, above 0; nothing: as fast as possible. Time
+    /// stands still until the loop moves it on, for example while a question waits for its answer.
     explicit VirtualClock(std::optional<double> pace = std::nullopt) noexcept : pace_(pace) {}
     [[nodiscard]] Instant now() const noexcept override;
     [[nodiscard]] bool isVirtual() const noexcept override { return true; }

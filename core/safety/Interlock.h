@@ -53,8 +53,8 @@ struct UnitFault {
 /// Returns the gravest of the causes after which the output must be checked before it is armed: a device stuck on, a
 /// broken limit, net charge, an internal error, in this order. Nothing if `causes` has none of them.
 [[nodiscard]] std::optional<FaultCause> graveCause(std::uint32_t causes) noexcept;
-/// Who leaves a fault: nobody but a safety check one with a grave cause, and the unit's record holds it until it
-/// passes.
+/// What asks for a reset. Only a safety check resets a fault with a grave cause; the unit's record holds the fault
+/// until the check has passed.
 enum class ResetBy { Operator, SafetyCheck };
 /// The refusal of every other reset after a grave cause. `of`: the device; `reason`: of the fault.
 [[nodiscard]] Error safetyCheckFirst(std::string_view of, FaultCause grave, std::string_view reason);

@@ -216,7 +216,8 @@ void RehearsalPage::judge() {
                          : lacks;
     begin_->setEnabled(why.isEmpty() && !refused);
     const int blocks = isWholeSession(*form_) ? form_->text("rehearsalBlocks").toInt() : 0;
-    whyNot_->setText(!why.isEmpty() || !person() ? why : tr("With you it takes %1.").arg(sessionLasts(blocks)));
+    const bool asASession = person() && form_->text("ownPace") == "own";
+    whyNot_->setText(!why.isEmpty() || !asASession ? why : tr("With you it takes %1.").arg(sessionLasts(blocks)));
     begin_->setToolTip(
         !why.isEmpty() ? why : tr("Opens both windows. Nothing is delivered before the checklist is answered."));
     begin_->setText(offer_->goesOn() ? tr("Go on with the rehearsal") : tr("Begin rehearsal"));

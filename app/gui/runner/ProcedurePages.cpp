@@ -136,7 +136,7 @@ QWidget* ProcedurePages::buildSettings(DayNotes& day) {
     auto* parts = new QWidget;
     boundWidth(*parts, kFormWidth * 3 / 2);
     auto* below = columnIn(*parts);
-    certificate_ = new CertificatePart(parts);  // first: below a long form nobody finds it
+    certificate_ = new CertificatePart(parts);  // at the top, because it is overlooked below a long form
     below->addWidget(certificate_);
     below->addWidget(form_);
     notes_ = new NotesPanel(day, parts);

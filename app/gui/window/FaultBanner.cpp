@@ -35,7 +35,9 @@ QString nextAfter(std::optional<FaultCause> cause, bool grave) {
             return FaultBanner::tr(
                 "Run the safety check, which alone resets it: the stimulator delivered more than it may.");
         case FaultCause::StuckOn:
-            return FaultBanner::tr("Switch it off at its own switch and take the load off, then run the safety check.");
+            return grave ? FaultBanner::tr(
+                               "Switch it off at its own switch and take the load off, then run the safety check.")
+                         : FaultBanner::tr("Switch it off at its own switch, then reset.");  // a massager
         case FaultCause::Internal:
             break;
     }

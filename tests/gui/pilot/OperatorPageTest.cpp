@@ -276,6 +276,12 @@ TEST(Rehearsal, PageSaysWhoAnswersAndBegins) {
     auto* who = page.findChild<QComboBox*>("whoAnswers");
     who->setCurrentIndex(1);
     EXPECT_TRUE(page.rehearsal().person);
+    const auto* lasts = page.findChild<QLabel*>("whyNotRehearse");
+    EXPECT_EQ(lasts->text(), "") << "four times as fast it does not take as long as a session";
+    auto* pace = page.findChild<QComboBox*>("ownPace");
+    pace->setCurrentIndex(pace->findData("own"));
+    EXPECT_EQ(lasts->text(), "With you it takes about 66 min.");
+    pace->setCurrentIndex(pace->findData("fourfold"));
     int begun = 0;
     QObject::connect(&page, &gui::RehearsalPage::beginWanted, &page, [&] { ++begun; });
     auto* button = page.findChild<QPushButton*>("beginRehearsal");
