@@ -1,8 +1,10 @@
 // Tables of further makers' oscilloscopes and programs. The headers are as the named sources show or describe them; the
 // rows are invented.
+#include <array>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/Random.h"
 #include "core/formats/csv/CsvFormat.h"
 #include "tests/support/Refused.h"
 #include "tests/support/Support.h"
@@ -10,10 +12,13 @@
 namespace tacto::test {
 namespace {
 
+using ::testing::AnyOf;
 using ::testing::ElementsAre;
+using ::testing::Eq;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
+using ::testing::StartsWith;
 
 CaptureReading madeOf(std::string_view text) {
     auto read = parseCapture(text, "t.csv");
@@ -355,6 +360,22 @@ TEST(CsvMakers, OthersThatArePlainTables) {
                "\"t / s\";\"CH1 / V\";\"CH2 / mA\"\n0;0,5;1000\n0,001;1,5;2000\n");
     expectRead({"csv", 1e3, 0, {{"CH1", "V", {1, 2}}}}, "Time(s),CH1V\n0,1\n0.001,2\n");
     expectRead({"csv", 1e3, 0, {{"V1", "V", {1, 2}}}}, "Operator,me\nTime,12:30\ntime_ms,V1_v\n0,1\n1,2\n");
+}
+
+// A row that stands before the keys leaves no header line.
+TEST(CsvMakers, KeysThatStandBesideRowsAlone) {
+    constexpr std::array kKeys{"TraceName", "BlockSize", "HResolution", "SampleRate", "VUnit",   "XInc",
+                               "XOrg",      "Points",    "Source",      "YUnits",     "Segments"};
+    Random random(51, "tables of keys");
+    for (int n = 0; n < 3000; ++n) {
+        std::vector<std::string> lines{random.below(2) == 0 ? ",1" : "1,2"};
+        for (const auto* key : kKeys) {
+            if (random.below(8) != 0) lines.push_back(fmt::format("{},{}", key, random.below(3)));
+        }
+        for (std::size_t i = lines.size() - 1; i > 1; --i) std::swap(lines[i], lines[1 + random.below(i)]);
+        const auto text = fmt::format("{}\na,1\n", fmt::join(lines, "\n"));
+        EXPECT_THAT(saidOf(text), AnyOf(Eq("accepted"), StartsWith("t.csv:"))) << text;
+    }
 }
 
 }  // namespace

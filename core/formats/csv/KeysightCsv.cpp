@@ -57,7 +57,7 @@ Result<CsvDraft> infiniium(const CsvHead& head, std::string_view file) {
                         file, increments.number, increments.fields[1], increments.fields[c]);
         }
     }
-    CsvDraft draft(increments, head.header.back());
+    CsvDraft draft(increments, increments);
     draft.startAt(*head.firstRow);
     if (hasTime) draft.addOther("time");
     const auto* names = lineCalled(head, "Source");

@@ -35,7 +35,7 @@ Result<CsvDraft> yokogawa(const CsvHead& head, std::string_view file) {
         return fail(ErrorCode::ParseError, "{}:{}: {} values for {} traces; one for each, without times, was expected",
                     file, first.number, filled(first) - indent, traces);
     }
-    CsvDraft draft(names, head.header.back());
+    CsvDraft draft(names, names);
     draft.startAt(first);
     if (indent == 1) draft.addOther("");
     for (std::size_t c = 1; c <= traces; ++c) draft.addChannel(names.fields[c], fieldIn(units, c));
