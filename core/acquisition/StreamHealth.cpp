@@ -7,6 +7,10 @@
 #include <utility>
 #include <vector>
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 namespace tacto {
 
 std::string HealthReport::text() const {
@@ -131,104 +135,135 @@ namespace {
 constexpr double kByChance = 1e-9;
 constexpr std::uint64_t kKnown = 100;  // changes after which the normal behaviour of a value is known
 constexpr std::uint64_t kEnough = 40;  // repeats that show a standstill: 1 in 10^12 if the value moves
+
+template <class Function>
+void eachBit(std::uint64_t mask, Function function) {
+    for (; mask != 0; mask &= mask - 1) function(static_cast<std::size_t>(std::countr_zero(mask)));
+}
+
+/// Returns the mask of those of 64 bytes that equal `byte`.
+std::uint64_t equalBytes(const std::uint8_t* bytes, std::uint8_t byte) noexcept {
+    std::uint64_t equal = 0;
+#ifdef __SSE2__
+    const auto wanted = _mm_set1_epi8(static_cast<char>(byte));
+    for (unsigned from = 0; from < 64; from += 16) {
+        const auto sixteen = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bytes + from));
+        const auto mask = static_cast<unsigned>(_mm_movemask_epi8(_mm_cmpeq_epi8(sixteen, wanted)));
+        equal |= std::uint64_t{mask} << from;
+    }
+#else
+    for (unsigned i = 0; i < 64; ++i) equal |= std::uint64_t{bytes[i] == byte} << i;
+#endif
+    return equal;
+}
 }  // namespace
 
 Standstill::Standstill(std::size_t channels, bool eachChannel)
-    : channels_(channels),
-      eachChannel_(eachChannel),
-      before_(channels),
-      repeats_((eachChannel ? 1 + channels : 1) * kPeriods),
-      same_(eachChannel ? 1 + channels : 1) {}
+    : channels_(channels), eachChannel_(eachChannel), before_(channels), repeats_(1 + channels) {
+    static_assert(kTogether < kEnough);
+}
 
 void Standstill::feed(const SampleBlock& block) noexcept {
-    for (std::size_t i = 0; i < block.t_s.size(); ++i) {
-        const double* values = block.values.data() + i * channels_;
-        last_s_ = std::exchange(newest_s_, block.t_s[i]);
-        compare(values);
-        ++seen_;
-    }
-}
-
-std::uint64_t Standstill::History::push(std::uint64_t number, double value) noexcept {
-    const auto bits = std::bit_cast<std::uint64_t>(value);
-    const auto index = static_cast<std::uint8_t>(bits * 0x9E37'79B9'7F4A'7C15U >> 56U);
-    auto& bucket = buckets[index];
-    const auto slot = number % kPeriods;
-    const auto here = std::uint64_t{1} << (kPeriods - slot) % kPeriods;
-    auto same = std::rotl(bucket.where, static_cast<int>((number - 1) % kPeriods));
-    if (bucket.where != 0 && bucket.value != bits) bucket.mixedUntil = number + kPeriods;
-    if (number <= bucket.mixedUntil) {
-        for (auto left = same; left != 0; left &= left - 1) {
-            const auto period = static_cast<std::uint64_t>(std::countr_zero(left)) + 1;
-            if (values[(number - period) % kPeriods] != bits) same &= ~(left & (0 - left));
+    for (std::size_t begin = 0; begin < block.t_s.size(); begin += kTogether) {
+        const auto t_s = std::span(block.t_s).subspan(begin, std::min(kTogether, block.t_s.size() - begin));
+        Masks all;
+        all.fill(~Mask{0});
+        for (std::size_t c = 0; c < channels_; ++c) {
+            Masks same;
+            compare(c, block.values.data() + begin * channels_ + c, t_s.size(), same);
+            if (eachChannel_) track(repeats_[1 + c], same, t_s);
+            for (std::size_t i = 0; i < t_s.size(); ++i) all[i] &= same[i];
         }
+        for (std::size_t i = 0; i < t_s.size(); ++i)
+            eachBit(all[i], [&](std::size_t bit) { ++repeats_.front().count[bit]; });
+        track(repeats_.front(), all, t_s);
+        seen_ += t_s.size();
+        newest_s_ = t_s.back();
     }
-    buckets[bucketOf[slot]].where &= ~here;
-    bucket.where |= here;
-    bucket.value = bits;
-    values[slot] = bits;
-    bucketOf[slot] = index;
-    return same;
 }
 
-void Standstill::compare(const double* values) noexcept {
-    std::uint64_t all = ~std::uint64_t{0};
-    for (std::size_t c = 0; c < channels_; ++c) {
-        const auto same = before_[c].push(seen_ + kPeriods, values[c]);
-        if (eachChannel_) countAll(1 + c, same);
-        all &= same;
+void Standstill::compare(std::size_t channel, const double* values, std::size_t count, Masks& same) noexcept {
+    auto& [bits, marks] = before_[channel];
+    auto& repeats = repeats_[1 + channel].count;
+    for (std::size_t i = 0; i < count; ++i) {
+        bits[kPeriods + i] = std::bit_cast<std::uint64_t>(values[i * channels_]);
+        marks[kPeriods + i] = static_cast<std::uint8_t>(bits[kPeriods + i] * 0x9E37'79B9'7F4A'7C15U >> 56U);
     }
-    countAll(0, all);
-}
-
-/// Counts only if values repeat or stop repeating, which is rare for a working sensor.
-void Standstill::countAll(std::size_t row, std::uint64_t same) noexcept {
-    for (std::uint64_t left = same | same_[row]; left != 0; left &= left - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(left));
-        count(repeats_[row * kPeriods + i], i + 1, (same >> i & 1U) != 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto compared = std::min<std::uint64_t>(seen_ + i, kPeriods);
+        auto left =
+            compared == 0 ? 0 : equalBytes(marks.data() + i, marks[kPeriods + i]) & ~Mask{0} << (kPeriods - compared);
+        same[i] = left;
+        // Works for no bit too: how many there are is chance, and a branch on chance costs more than a comparison.
+        const auto compareOne = [&, i] {
+            const auto bit = static_cast<std::size_t>(std::countr_zero(left | Mask{1} << (kPeriods - 1)));
+            const Mask equal = bits[i + bit] == bits[kPeriods + i] ? 1 : 0;
+            repeats[bit] += equal & left >> bit;
+            same[i] &= ~((equal ^ 1U) << bit);
+            left &= left - 1;
+        };
+        compareOne();
+        compareOne();
+        while (left != 0) compareOne();
     }
-    same_[row] = same;
+    std::copy_n(bits.begin() + static_cast<std::ptrdiff_t>(count), kPeriods, bits.begin());
+    std::copy_n(marks.begin() + static_cast<std::ptrdiff_t>(count), kPeriods, marks.begin());
 }
 
-/// Repeats during a standstill are not counted as noise of the value. Without branches on `same`, which is chance.
-void Standstill::count(Repeats& one, std::size_t period, bool same) const noexcept {
-    const auto ended = same ? 0 : one.run;
-    one.repeated += ended > kEnough && moves(one, period) ? kEnough : ended;
-    one.matched += ended;
-    one.since_s = same && one.run == 0 ? last_s_ : one.since_s;
-    one.run = same ? one.run + 1 : 0;
+/// Whether a value usually moves, after `seen` samples, `count` repeats and the last `run` of them in a row. Repeats
+/// during a standstill are not counted as noise of the value.
+bool Standstill::moves(const Repeats& row, std::size_t bit, std::uint64_t seen, std::uint64_t count,
+                       std::uint64_t run) noexcept {
+    const auto changes = seen - std::min<std::uint64_t>(seen, kPeriods - bit) - count;
+    return changes >= kKnown && count - run - row.excess[bit] < changes;
 }
 
-std::uint64_t Standstill::changes(const Repeats& one, std::size_t period) const noexcept {
-    return seen_ < period ? 0 : seen_ - period - one.matched - std::min(one.run, seen_ - period - one.matched);
-}
-
-bool Standstill::moves(const Repeats& one, std::size_t period) const noexcept {
-    const auto changed = changes(one, period);
-    return changed >= kKnown && one.repeated < changed;
-}
-
-bool Standstill::stands(const Repeats& one, std::size_t period) const noexcept {
-    return one.run >= kEnough && newest_s_ - one.since_s > StreamHealth::kStale_s && moves(one, period);
+/// Follows the runs through samples whose repeats are counted. One that begins and ends among them shows nothing.
+void Standstill::track(Repeats& row, const Masks& same, std::span<const double> t_s) const noexcept {
+    eachBit(row.newest | same[t_s.size() - 1], [&](std::size_t bit) {
+        const auto repeats = [&](std::size_t i) { return (same[i] >> bit & 1U) != 0; };
+        auto& run = row.run[bit];
+        std::size_t end = 0;
+        while (end < t_s.size() && repeats(end)) ++end;
+        if (run > 0 && end == t_s.size()) {
+            run += end;
+            return;
+        }
+        if (run > 0 && run + end > kEnough) {
+            auto count = row.count[bit];
+            for (auto i = end; i < t_s.size(); ++i) count -= repeats(i) ? 1 : 0;
+            if (moves(row, bit, seen_ + end, count, run + end)) row.excess[bit] += run + end - kEnough;
+        }
+        auto begin = t_s.size();
+        while (begin > 0 && repeats(begin - 1)) --begin;
+        run = t_s.size() - begin;
+        row.since_s[bit] = begin == 0 ? newest_s_ : t_s[begin - 1];
+    });
+    row.newest = same[t_s.size() - 1];
 }
 
 std::optional<double> Standstill::since() const noexcept {
-    const auto& last = repeats_.front();
-    if (last.run == 0 || !(newest_s_ - last.since_s > StreamHealth::kStale_s)) return std::nullopt;
-    const double share =
-        static_cast<double>(last.repeated + 1) / static_cast<double>(last.repeated + changes(last, 1) + 2);
-    if (static_cast<double>(last.run) * std::log(share) > std::log(kByChance)) return std::nullopt;
-    return last.since_s;
+    const auto& row = repeats_.front();
+    constexpr std::size_t kNext = kPeriods - 1;
+    const auto run = row.run[kNext];
+    if (run == 0 || !(newest_s_ - row.since_s[kNext] > StreamHealth::kStale_s)) return std::nullopt;
+    const auto noise = row.count[kNext] - run - row.excess[kNext];
+    const auto changes = seen_ - 1 - row.count[kNext];
+    const double share = static_cast<double>(noise + 1) / static_cast<double>(noise + changes + 2);
+    if (static_cast<double>(run) * std::log(share) > std::log(kByChance)) return std::nullopt;
+    return row.since_s[kNext];
 }
 
 std::optional<double> Standstill::repeatsSince() const noexcept {
     std::optional<double> earliest;
-    for (std::size_t row = eachChannel_ ? 1 : 0; row < same_.size(); ++row) {
-        for (std::uint64_t left = same_[row]; left != 0; left &= left - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(left));
-            const auto& judged = repeats_[row * kPeriods + i];
-            if (stands(judged, i + 1)) earliest = std::min(earliest.value_or(judged.since_s), judged.since_s);
-        }
+    for (std::size_t r = eachChannel_ ? 1 : 0; r < (eachChannel_ ? repeats_.size() : 1); ++r) {
+        const auto& row = repeats_[r];
+        eachBit(row.newest, [&](std::size_t bit) {
+            const auto run = row.run[bit];
+            if (run < kEnough || !(newest_s_ - row.since_s[bit] > StreamHealth::kStale_s)) return;
+            if (moves(row, bit, seen_, row.count[bit], run))
+                earliest = std::min(earliest.value_or(row.since_s[bit]), row.since_s[bit]);
+        });
     }
     return earliest;
 }

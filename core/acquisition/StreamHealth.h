@@ -101,41 +101,36 @@ public:
     [[nodiscard]] std::optional<double> repeatsSince() const noexcept;
 
 private:
-    /// Compares one channel, or all together, with its values some samples before.
+    /// Samples that are compared together; fewer than show a standstill (kEnough).
+    static constexpr std::size_t kTogether = 32;
+    /// Bit (kPeriods - period) is set if a sample repeats the value `period` samples before.
+    using Mask = std::uint64_t;
+    using Masks = std::array<Mask, kTogether>;
+
+    /// The last kPeriods values of a channel, then those that are compared together.
+    struct Values {
+        std::array<std::uint64_t, kPeriods + kTogether> bits{};
+        std::array<std::uint8_t, kPeriods + kTogether> marks{};  // a byte of each; equal values have equal ones
+    };
+    /// What one channel, or all together, has repeated; for each bit of a mask.
     struct Repeats {
-        double since_s = 0;                       // time of the last different value, while values repeat
-        std::uint64_t run = 0;                    // length of the present repetition
-        std::uint64_t matched = 0, repeated = 0;  // earlier: all values, and those that noise may have repeated
+        std::array<std::uint64_t, kPeriods> count{};   // all repeats so far
+        std::array<std::uint64_t, kPeriods> excess{};  // of them, those beyond kEnough of each standstill that ended
+        std::array<std::uint64_t, kPeriods> run{};     // of them, those in a row up to the newest sample
+        std::array<double, kPeriods> since_s{};        // while `run` is not 0: time of the last different value
+        Mask newest = 0;                               // of the newest sample
     };
-    /// The last kPeriods values of a channel. Each value has a bucket, which knows where among them it was; values that
-    /// share a bucket are told apart one by one.
-    struct History {
-        static constexpr std::size_t kBuckets = 256;
-        struct Bucket {
-            std::uint64_t where = 0;       // bit (-n mod kPeriods) for each sample n of the last kPeriods
-            std::uint64_t value = 0;       // bits of the newest
-            std::uint64_t mixedUntil = 0;  // the sample from which on all of them are equal
-        };
-        std::array<Bucket, kBuckets> buckets{};
-        std::array<std::uint64_t, kPeriods> values{};   // bits of the sample n at [n % kPeriods], like `bucketOf`
-        std::array<std::uint8_t, kPeriods> bucketOf{};  // where it is noted
-        /// Keeps the value of sample `number`. Sets bit (period - 1) if the value `period` samples before is equal.
-        [[nodiscard]] std::uint64_t push(std::uint64_t number, double value) noexcept;
-    };
-    void compare(const double* values) noexcept;
-    void countAll(std::size_t row, std::uint64_t same) noexcept;
-    void count(Repeats& one, std::size_t period, bool same) const noexcept;
-    [[nodiscard]] std::uint64_t changes(const Repeats& one, std::size_t period) const noexcept;
-    [[nodiscard]] bool moves(const Repeats& one, std::size_t period) const noexcept;
-    [[nodiscard]] bool stands(const Repeats& one, std::size_t period) const noexcept;
+    void compare(std::size_t channel, const double* values, std::size_t count, Masks& same) noexcept;
+    void track(Repeats& row, const Masks& same, std::span<const double> t_s) const noexcept;
+    [[nodiscard]] static bool moves(const Repeats& row, std::size_t bit, std::uint64_t seen, std::uint64_t count,
+                                    std::uint64_t run) noexcept;
 
     const std::size_t channels_;
     const bool eachChannel_;
-    std::vector<History> before_;       // one for each channel
-    std::uint64_t seen_ = 0;            // samples before the present one
-    std::vector<Repeats> repeats_;      // kPeriods entries for all channels together; with eachChannel_, also for each
-    std::vector<std::uint64_t> same_;   // for each row: bit (period - 1) is set if the newest sample repeats
-    double newest_s_ = 0, last_s_ = 0;  // stamps of the present sample and the one before
+    std::vector<Values> before_;    // one for each channel
+    std::vector<Repeats> repeats_;  // of all channels together, then of each; its runs only with eachChannel_
+    std::uint64_t seen_ = 0;        // samples so far
+    double newest_s_ = 0;           // stamp of the newest
 };
 
 }  // namespace tacto

@@ -351,6 +351,8 @@ TEST(Standstill, IsWhatThePlainDefinitionSays) {
         PlainStandstill plain(channels);
         std::vector<std::vector<double>> rows;
         std::size_t left = 0, period = 0, axis = 0;  // of a repetition
+        const std::size_t together = seed % 2 == 0 ? 1 : 120;
+        SampleBlock block;
         for (std::size_t i = 0; i < 2500; ++i) {
             if (left == 0 && i > 300 && draw() % 300 == 0) {
                 left = draw() % 600;
@@ -364,17 +366,18 @@ TEST(Standstill, IsWhatThePlainDefinitionSays) {
                 row.push_back(hangs ? rows[i - period][c] : value);
             }
             if (left > 0) --left;
-            SampleBlock one;
-            one.t_s = {static_cast<double>(i) / rate_hz};
-            one.values = row;
-            still.feed(one);
-            plain.feed(one.t_s[0], row);
+            block.t_s.push_back(static_cast<double>(i) / rate_hz);
+            block.values.insert(block.values.end(), row.begin(), row.end());
+            plain.feed(block.t_s.back(), row);
+            if (draw() % together != 0) continue;
+            still.feed(block);
+            block.clear();
             ASSERT_EQ(still.since(), plain.since()) << "seed " << seed << ", sample " << i;
             ASSERT_EQ(still.repeatsSince(), plain.repeatsSince()) << "seed " << seed << ", sample " << i;
-            found += plain.repeatsSince() ? 1 : 0;
+            found += plain.repeatsSince() && together == 1 ? 1 : 0;
         }
     }
-    EXPECT_GT(found, 100 * streams);
+    EXPECT_GT(found, 50 * streams);
 }
 
 /// Ten minutes of standstill do not change what is learnt: the next standstill is found as soon.
