@@ -5,9 +5,9 @@
 //
 // Memory order. `head_` counts elements ever pushed, `tail_` elements ever taken or dropped; both only grow. The
 // release store of `head_` publishes a slot, and the consumer reads the slot after an acquire load of `head_`, so it
-// sees the whole element. Because the producer too may advance `tail_` (to drop), the consumer claims a slot by
-// compare-exchange on `tail_` *after* copying the element out: if the producer dropped that slot meanwhile, the
-// exchange fails and the consumer discards its copy, which may be torn. The producer overwrites a slot only after
+// sees the whole element. Because the producer too may advance `tail_` (to drop), the consumer claims slots by
+// compare-exchange on `tail_` *after* copying the elements out: if the producer dropped one of them meanwhile, the
+// exchange fails and the consumer discards its copies, which may be torn. The producer overwrites a slot only after
 // moving `tail_` past it (acq_rel), so no claimed copy can overlap a write. Elements are copied word by word through
 // atomics, so that a torn copy is defined behaviour and not a data race. Words are stored with release and loaded with
 // acquire, so a consumer that saw any new word also sees the `tail_` moved before it was written, and its exchange must
@@ -19,10 +19,12 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <vector>
 
@@ -36,7 +38,8 @@ public:
     using Element = T;
 
     /// Room for `capacity` elements (at least 1). Allocates here and never again.
-    explicit SpscRing(std::size_t capacity) : capacity_(capacity == 0 ? 1 : capacity), slots_(capacity_ * kWords) {}
+    explicit SpscRing(std::size_t capacity)
+        : capacity_(capacity == 0 ? 1 : capacity), slots_(std::bit_ceil(capacity_) * kWords) {}
 
     /// Producer only. Drops the oldest element if the ring is full.
     void push(const T& element) noexcept {
@@ -55,17 +58,24 @@ public:
 
     /// Consumer only. Returns the oldest element, or nothing if the ring is empty.
     [[nodiscard]] std::optional<T> pop() noexcept {
+        T element;
+        return pop(std::span(&element, 1)) == 1 ? std::optional(element) : std::nullopt;
+    }
+
+    /// Consumer only. Takes the oldest elements, as many as there are and `into` has room for; returns their number.
+    [[nodiscard]] std::size_t pop(std::span<T> into) noexcept {
         std::uint64_t tail = tail_.load(std::memory_order_acquire);
         for (;;) {
-            if (tail == head_.load(std::memory_order_acquire)) return std::nullopt;
-            std::uint64_t words[kWords];
-            const auto* slot = slotAt(tail);
-            for (std::size_t i = 0; i < kWords; ++i) words[i] = slot[i].load(std::memory_order_acquire);
-            if (tail_.compare_exchange_weak(tail, tail + 1, std::memory_order_acq_rel, std::memory_order_acquire)) {
-                T element;
-                std::memcpy(static_cast<void*>(&element), words, sizeof(T));
-                return element;
+            const auto count = std::min<std::uint64_t>(head_.load(std::memory_order_acquire) - tail, into.size());
+            if (count == 0) return 0;
+            for (std::uint64_t k = 0; k < count; ++k) {
+                std::uint64_t words[kWords];
+                const auto* slot = slotAt(tail + k);
+                for (std::size_t i = 0; i < kWords; ++i) words[i] = slot[i].load(std::memory_order_acquire);
+                std::memcpy(static_cast<void*>(&into[k]), words, sizeof(T));
             }
+            if (tail_.compare_exchange_weak(tail, tail + count, std::memory_order_acq_rel, std::memory_order_acquire))
+                return count;
         }
     }
 
@@ -76,10 +86,11 @@ public:
 private:
     static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
     using Slot = std::atomic<std::uint64_t>;
-    [[nodiscard]] Slot* slotAt(std::uint64_t position) noexcept { return &slots_[(position % capacity_) * kWords]; }
+    [[nodiscard]] Slot* slotAt(std::uint64_t position) noexcept { return &slots_[(position & mask_) * kWords]; }
 
     const std::size_t capacity_;  // constant after construction
-    std::vector<Slot> slots_;
+    const std::size_t mask_ = std::bit_ceil(capacity_) - 1;
+    std::vector<Slot> slots_;  // a power of two, so that no position is divided
     alignas(64) std::atomic<std::uint64_t> head_{0};
     alignas(64) std::atomic<std::uint64_t> tail_{0};
     alignas(64) std::atomic<std::uint64_t> dropped_{0};

@@ -19,13 +19,9 @@ void CommitThread::start(Job job) {
     {
         const std::lock_guard lock(mutex_);
         job_ = std::move(job);
+        busy_.store(true, std::memory_order_release);
     }
     changed_.notify_all();
-}
-
-bool CommitThread::busy() const {
-    const std::lock_guard lock(mutex_);
-    return job_ != nullptr;
 }
 
 Result<void> CommitThread::wait() {
@@ -45,6 +41,7 @@ void CommitThread::run() {
         lock.lock();
         result_ = std::move(result);
         job_ = nullptr;
+        busy_.store(false, std::memory_order_release);
         changed_.notify_all();
     }
 }

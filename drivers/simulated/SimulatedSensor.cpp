@@ -45,6 +45,7 @@ SimulatedSensor::SimulatedSensor(DeviceIdentity identity, std::shared_ptr<World>
 }
 
 bool SimulatedSensor::packetLost(double t_s) const noexcept {
+    if (settings_.dropouts <= 0 && settings_.faults.empty()) return false;
     const double share =
         std::max(settings_.dropouts, settings_.faults.active(Fault::Dropout, toInstant(t_s)) ? kFaultyDropouts : 0.0);
     if (share <= 0) return false;

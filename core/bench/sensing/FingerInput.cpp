@@ -98,9 +98,12 @@ void FingerInput::watchRange(std::size_t stream) noexcept {
     const auto& block = blocks_[stream];
     const auto& info = chain_->streams()[stream];
     const double largest = mostPlausible(info.unit);
-    for (std::size_t i = 0; i < block.values.size(); ++i) {
-        const double value = chain_->inUse(stream, i % info.channels, block.values[i]);
-        if (!(std::abs(value) <= largest)) implausible_s_ = std::max(implausible_s_, block.t_s[i / info.channels]);
+    const auto* reading = block.values.data();
+    for (const double t_s : block.t_s) {
+        for (std::size_t c = 0; c < info.channels; ++c) {
+            const double value = chain_->inUse(stream, c, *reading++);
+            if (!(std::abs(value) <= largest)) implausible_s_ = std::max(implausible_s_, t_s);
+        }
     }
 }
 

@@ -32,6 +32,8 @@ SensorSession::SensorSession(TactileSensor& device)
         Stream stream{info.channels, {}};
         if (info.channels <= 3)
             stream.ring = std::make_unique<NarrowRing>(capacity);
+        else if (info.channels <= 8)
+            stream.ring = std::make_unique<ArrayRing>(capacity);
         else
             stream.ring = std::make_unique<WideRing>(capacity);
         streams_.push_back(std::move(stream));
@@ -63,7 +65,7 @@ void SensorSession::hand() noexcept {
                 typename std::remove_cvref_t<decltype(*ring)>::Element sample{};
                 for (std::size_t i = 0; i < block.samples(); ++i) {
                     sample.t_s = block.t_s[i];
-                    std::copy_n(&block.values[i * channels], channels, sample.values.begin());
+                    for (std::size_t c = 0; c < channels; ++c) sample.values[c] = block.values[i * channels + c];
                     ring->push(sample);
                 }
             },
@@ -123,10 +125,12 @@ void SensorSession::collect(std::span<SampleBlock> blocks) noexcept {
         const auto channels = streams_[s].channels;
         std::visit(
             [&](auto& ring) {
-                while (const auto sample = ring->pop()) {
-                    blocks[s].t_s.push_back(sample->t_s);
-                    blocks[s].values.insert(blocks[s].values.end(), sample->values.begin(),
-                                            sample->values.begin() + static_cast<std::ptrdiff_t>(channels));
+                std::array<typename std::remove_cvref_t<decltype(*ring)>::Element, 16> samples;
+                while (const auto count = ring->pop(samples)) {
+                    for (const auto& sample : std::span(samples).first(count)) {
+                        blocks[s].t_s.push_back(sample.t_s);
+                        for (std::size_t c = 0; c < channels; ++c) blocks[s].values.push_back(sample.values[c]);
+                    }
                 }
             },
             streams_[s].ring);

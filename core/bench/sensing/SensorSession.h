@@ -64,10 +64,11 @@ private:
         std::array<double, N> values;
     };
     using NarrowRing = SpscRing<Sample<3>>;
+    using ArrayRing = SpscRing<Sample<8>>;  // the taxels of a fingertip
     using WideRing = SpscRing<Sample<kMaxChannels>>;
     struct Stream {
         std::size_t channels;
-        std::variant<std::unique_ptr<NarrowRing>, std::unique_ptr<WideRing>> ring;
+        std::variant<std::unique_ptr<NarrowRing>, std::unique_ptr<ArrayRing>, std::unique_ptr<WideRing>> ring;
     };
 
     explicit SensorSession(TactileSensor& device);
