@@ -190,11 +190,10 @@ void Standstill::compare(std::size_t channel, const double* values, std::size_t 
         marks[kPeriods + i] = static_cast<std::uint8_t>(bits[kPeriods + i] * 0x9E37'79B9'7F4A'7C15U >> 56U);
     }
     for (std::size_t i = 0; i < count; ++i) {
-        const auto compared = std::min<std::uint64_t>(seen_ + i, kPeriods);
-        auto left =
-            compared == 0 ? 0 : equalBytes(marks.data() + i, marks[kPeriods + i]) & ~Mask{0} << (kPeriods - compared);
+        auto left = equalBytes(marks.data() + i, marks[kPeriods + i]);
+        if (seen_ + i < kPeriods) left &= seen_ + i == 0 ? 0 : ~Mask{0} << (kPeriods - seen_ - i);
         same[i] = left;
-        // Works for no bit too: how many there are is chance, and a branch on chance costs more than a comparison.
+        // Works for no bit too: whether there is one is chance, and a branch on chance costs more than a comparison.
         const auto compareOne = [&, i] {
             const auto bit = static_cast<std::size_t>(std::countr_zero(left | Mask{1} << (kPeriods - 1)));
             const Mask equal = bits[i + bit] == bits[kPeriods + i] ? 1 : 0;
@@ -202,7 +201,6 @@ void Standstill::compare(std::size_t channel, const double* values, std::size_t 
             same[i] &= ~((equal ^ 1U) << bit);
             left &= left - 1;
         };
-        compareOne();
         compareOne();
         while (left != 0) compareOne();
     }

@@ -354,6 +354,8 @@ double RoughnessChain::framePeriod_s() const noexcept { return state_->period_s;
 
 std::span<const StreamInfo> RoughnessChain::streams() const noexcept { return state_->streams; }
 
+bool RoughnessChain::converts(std::size_t stream) const noexcept { return state_->scaling.converts(stream); }
+
 double RoughnessChain::inUse(std::size_t stream, std::size_t channel, double reading) const noexcept {
     return state_->scaling.inUse(stream, channel, reading);
 }

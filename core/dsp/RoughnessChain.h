@@ -87,6 +87,8 @@ public:
 
     /// Returns the streams given to create(), in the units in use.
     [[nodiscard]] std::span<const StreamInfo> streams() const noexcept;
+    /// Whether a stream is converted, that is inUse() does not return its readings as they are.
+    [[nodiscard]] bool converts(std::size_t stream) const noexcept;
     /// Converts a reading of one channel to the unit in use.
     [[nodiscard]] double inUse(std::size_t stream, std::size_t channel, double reading) const noexcept;
 

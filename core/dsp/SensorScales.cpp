@@ -162,11 +162,15 @@ StreamScaling::StreamScaling(std::span<const StreamInfo> streams, const std::opt
     }
 }
 
-double StreamScaling::inUse(std::size_t stream, std::size_t channel, double reading) const noexcept {
+bool StreamScaling::converts(std::size_t stream) const noexcept {
     const auto kind = streams_[stream].kind;
-    if (kind == StreamKind::Force && force_) return scales_.force->at(reading);
-    if (kind == StreamKind::Taxels && taxels_) return scales_.taxels[channel].at(reading);
-    return reading;
+    return (kind == StreamKind::Force && force_) || (kind == StreamKind::Taxels && taxels_);
+}
+
+double StreamScaling::inUse(std::size_t stream, std::size_t channel, double reading) const noexcept {
+    if (!converts(stream)) return reading;
+    return streams_[stream].kind == StreamKind::Force ? scales_.force->at(reading)
+                                                      : scales_.taxels[channel].at(reading);
 }
 
 const double* StreamScaling::scaled(std::size_t stream, const double* readings) noexcept {

@@ -93,6 +93,7 @@ public:
 
     /// Returns the streams in the units in use.
     [[nodiscard]] const std::vector<StreamInfo>& streams() const noexcept { return streams_; }
+    [[nodiscard]] bool converts(std::size_t stream) const noexcept;
     [[nodiscard]] double inUse(std::size_t stream, std::size_t channel, double reading) const noexcept;
     /// Returns all taxels of a sample in the unit in use (`readings` itself if unscaled), valid until the next call.
     [[nodiscard]] const double* scaled(std::size_t stream, const double* readings) noexcept;

@@ -98,10 +98,11 @@ void FingerInput::watchRange(std::size_t stream) noexcept {
     const auto& block = blocks_[stream];
     const auto& info = chain_->streams()[stream];
     const double largest = mostPlausible(info.unit);
+    const bool converts = chain_->converts(stream);
     const auto* reading = block.values.data();
     for (const double t_s : block.t_s) {
-        for (std::size_t c = 0; c < info.channels; ++c) {
-            const double value = chain_->inUse(stream, c, *reading++);
+        for (std::size_t c = 0; c < info.channels; ++c, ++reading) {
+            const double value = converts ? chain_->inUse(stream, c, *reading) : *reading;
             if (!(std::abs(value) <= largest)) implausible_s_ = std::max(implausible_s_, t_s);
         }
     }

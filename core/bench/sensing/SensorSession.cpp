@@ -127,9 +127,13 @@ void SensorSession::collect(std::span<SampleBlock> blocks) noexcept {
             [&](auto& ring) {
                 std::array<typename std::remove_cvref_t<decltype(*ring)>::Element, 16> samples;
                 while (const auto count = ring->pop(samples)) {
-                    for (const auto& sample : std::span(samples).first(count)) {
-                        blocks[s].t_s.push_back(sample.t_s);
-                        for (std::size_t c = 0; c < channels; ++c) blocks[s].values.push_back(sample.values[c]);
+                    const auto before = blocks[s].samples();
+                    blocks[s].t_s.resize(before + count);
+                    blocks[s].values.resize((before + count) * channels);
+                    auto* value = &blocks[s].values[before * channels];
+                    for (std::size_t i = 0; i < count; ++i) {
+                        blocks[s].t_s[before + i] = samples[i].t_s;
+                        for (std::size_t c = 0; c < channels; ++c) *value++ = samples[i].values[c];
                     }
                 }
             },
