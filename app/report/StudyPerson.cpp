@@ -20,9 +20,9 @@ PresentedRange rangeOf(const BidsSession& session) {
     if (std::isfinite(session.low.value()) && std::isfinite(session.high.value())) {
         range.low = session.low;
         range.high = session.high;
-        range.impedance = session.impedance;
-        range.lowVoltage = Volts(session.low.value() * session.impedance.value() / 1000);
-        range.highVoltage = Volts(session.high.value() * session.impedance.value() / 1000);
+        range.impedance = session.rangeImpedance;
+        range.lowVoltage = Volts(session.low.value() * session.rangeImpedance.value() / 1000);
+        range.highVoltage = Volts(session.high.value() * session.rangeImpedance.value() / 1000);
     }
     if (std::isfinite(session.lowIntensity) && std::isfinite(session.highIntensity)) {
         range.lowIntensity = session.lowIntensity;

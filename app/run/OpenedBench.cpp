@@ -124,7 +124,7 @@ Result<std::shared_ptr<LslStreams>> prepareLsl(const BenchOrder& order, Registry
         return fail(
             ErrorCode::InvalidArgument,
             "LSL has the computer's clock, and these devices run on a simulated one, which is faster; real time "
-            "(--realtime) is expected");
+            "(--realtime, or the session’s own pace) is expected");
     return LslStreams::prepare(order.lsl, order.mode == OutputMode::Person);
 }
 

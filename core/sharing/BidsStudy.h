@@ -76,8 +76,9 @@ struct BidsSession {
     double days = kNaN;  ///< whole days since the person's first session
     std::string encoding;
     std::string answers;  ///< the conditions in the order of the answer places, separated by commas
-    Ohms impedance{kNaN};
+    Ohms impedance{kNaN};             ///< at the beginning
     Milliamps low{kNaN}, high{kNaN};  ///< the personal range
+    Ohms rangeImpedance{kNaN};        ///< when the range was found
     double lowIntensity = kNaN, highIntensity = kNaN;
     std::string rangeNotUsable;                 ///< why not ("it was not confirmed"); empty if usable or not measured
     double detection = kNaN, tooStrong = kNaN;  ///< mA, or a massager's intensity

@@ -40,6 +40,7 @@ SessionRecord sessionWith(std::size_t right, int number, const std::string& enco
     results.low = Milliamps(4);
     results.high = Milliamps(6.5);
     results.impedance = Ohms(3400);
+    results.rangeImpedance = Ohms(3100);
     results.detection = 3.1;
     results.detectionLow = 2.8;
     results.detectionHigh = 3.4;
@@ -226,7 +227,7 @@ TEST(StudyReport, EachPersonsResultComesFirst) {
     const auto content = accepted(studyReport(studyOfThree()));
     const auto said = textOf(content);
     EXPECT_THAT(said, HasSubstr("P-7K3M told the four apart in 68 of 80 trials (85 %, 95 % interval 76 to 91 %, chance "
-                                "25 %) between 4.0 and 6.5 mA, 14 to 22 V at 3.4 kΩ."));
+                                "25 %) between 4.0 and 6.5 mA, 12 to 20 V at 3.1 kΩ."));
     EXPECT_LT(said.find("told the four apart"), said.find("All participants"));
     EXPECT_THAT(said, HasSubstr("1 of 2 were above chance"));
     EXPECT_THAT(said, HasSubstr("swapped minus standard: -15"));

@@ -387,6 +387,7 @@ private:
         } else {
             out_.low = Milliamps(found.min);
             out_.high = Milliamps(found.max);
+            out_.rangeImpedance = found.impedance;
         }
         out_.rangeNotUsable.clear();
         if (!found.usable) out_.rangeNotUsable = found.reason.empty() ? "it was not confirmed" : found.reason;
