@@ -224,7 +224,7 @@ Result<std::unique_ptr<EncoderComparison>> EncoderComparison::create(TactileSens
     if (!encoder) return failure(encoder);
     auto* const encoding = dynamic_cast<EncodingSensor*>(&sensor);
     if (auto* loader = dynamic_cast<EncoderLoader*>(&sensor); loader != nullptr && loader->wantsProfile()) {
-        if (const auto loaded = loader->load(profileBytes(*encoder)); !loaded) return failure(loaded);
+        if (const auto loaded = loader->load(profileBytes(*encoder), true); !loaded) return failure(loaded);
     }
     auto state = std::make_unique<State>(sensor, clock, output, profile.encoding, *encoder);
     if (encoding != nullptr && encoding->encoder()) {

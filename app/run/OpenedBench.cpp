@@ -37,15 +37,11 @@ std::string originOf(const DeviceSet& devices, const DeviceIdentity& identity) {
     return identity.simulated ? origin::kSimulated : origin::kHardware;
 }
 
-/// Returns the profile that a board must have to encode for this bench.
-Result<te_profile> profileForBoard(const TactileSensor& sensor, const Profile& profile, const EncoderOutput& output) {
-    return encoderProfile(sensor.streams(), profile.roughness, profile.encoding, output, sensor.identity().serial);
-}
-
-Result<std::uint32_t> hashForBoard(const TactileSensor& sensor, const Profile& profile, const GateSetup& setup) {
-    const auto made = profileForBoard(sensor, profile, {setup.source, setup.load, setup.ceilings});
+Result<BoardProfile> profileForBoard(const TactileSensor& sensor, const Profile& profile, const GateSetup& setup) {
+    const auto made = encoderProfile(sensor.streams(), profile.roughness, profile.encoding,
+                                     {setup.source, setup.load, setup.ceilings}, sensor.identity().serial);
     if (!made) return failure(made);
-    return made->hash;
+    return BoardProfile{made->hash, profileBytes(*made)};
 }
 
 /// Writes the profile for this stimulator and the declared load into a simulated board.
@@ -54,10 +50,12 @@ Result<void> loadBoard(const BenchOrder& order, DeviceSet& devices) {
     if (loader == nullptr || !loader->wantsProfile() || !devices.stimulator) return {};
     const auto load = parseLoad(order.declaredLoad);
     if (!load) return failure(load);
-    const auto made =
-        profileForBoard(*devices.sensor, order.profile,
-                        {devices.stimulator->traits(), LoadRange::declared(*load), order.profile.ceilings});
-    if (made) return loader->load(profileBytes(*made));
+    GateSetup setup;
+    setup.source = devices.stimulator->traits();
+    setup.load = LoadRange::declared(*load);
+    setup.ceilings = order.profile.ceilings;
+    const auto made = profileForBoard(*devices.sensor, order.profile, setup);
+    if (made) return loader->load(made->bytes, true);
     return fail(made.error().code, "the profile \"{}\" is not for {}, which encodes: {}", order.profile.name,
                 devices.sensor->identity().name, made.error().message);
 }
@@ -181,7 +179,7 @@ Result<std::shared_ptr<OpenedBench>> openBench(const BenchOrder& order, Registry
     config.watched = order.watched;
     applyKnown(knownCalibration(config.devices), config);
     config.units = unitFolders();
-    config.encoderHash = hashForBoard;
+    config.boardProfile = profileForBoard;
     auto bench = Bench::create(std::move(config));
     if (!bench) return failure(bench);
     opened->bench = std::move(*bench);

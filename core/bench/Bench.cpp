@@ -79,9 +79,11 @@ Result<void> Bench::arm(const ArmRequest& request) {
     const auto load = parseLoad(request.load);
     if (!load) return failure(load);
     if (const auto confirmed = s.terms.checkConfirmed(request, *load); !confirmed) return confirmed;
-    if (const auto fits = s.terms.checkEncoder(*load); !fits) return fits;
     if (const auto well = s.health(); !well) return well;
     if (const auto holds = s.calibration.checkDate(); !holds) return holds;
+    auto fits = s.fitBoard(*load);
+    if (!fits && (s.driving == DriveSource::Sensor || s.config.mode == OutputMode::Person))
+        return fail(fits.error().code, "not armed: {}", fits.error().message);
     const auto command = s.terms.commandFor(request, *load, s.order.asked());
     // If the operator has not confirmed the load, arming is refused and no pulse is sent, so no capture is needed.
     std::optional<CheckCapture> look;
@@ -91,6 +93,7 @@ Result<void> Bench::arm(const ArmRequest& request) {
     if (const auto rested = s.rest(); !rested) return rested;
     const auto ticket = s.interlock.requestArming(s.time.now());
     if (!ticket) return failure(ticket);
+    s.boardFits = std::move(fits);
     if (look) {
         if (const auto looking = look->begin(); !looking) {
             cancelCaptures();
@@ -176,6 +179,8 @@ Result<void> Bench::drive(DriveSource source, double roughness, double pressure)
     if (source == DriveSource::Sensor && !s.sensor) {
         return fail(ErrorCode::Unsupported, "no fingertip sensor is open to drive the output");
     }
+    if (source == DriveSource::Sensor && s.isArmed() && !s.boardFits)
+        return fail(s.boardFits.error().code, "the fingertip does not drive: {}", s.boardFits.error().message);
     if (source == DriveSource::Manual) {
         for (const auto& [name, value] : {std::pair("R", roughness), std::pair("P", pressure)}) {
             if (!(value >= 0 && value <= 1)) {
@@ -200,7 +205,7 @@ Result<void> Bench::setProfile(const Profile& profile, RBefore before) {
     auto& s = *state_;
     if (const auto valid = validate(profile.encoding); !valid) return valid;
     const auto state = s.interlock.state();
-    const bool armed = state != InterlockState::Disarmed && state != InterlockState::Disconnected;
+    const bool armed = s.isArmed();
     auto withSameRoughness = profile;
     withSameRoughness.roughness = s.config.profile.roughness;
     if (armed && toJson(withSameRoughness) != toJson(s.config.profile)) {

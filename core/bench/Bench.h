@@ -25,6 +25,7 @@
 #include "core/bench/Telemetry.h"
 #include "core/bench/delivery/Presentation.h"
 #include "core/devices/DeviceSet.h"
+#include "core/devices/EncoderLoader.h"
 #include "core/measure/Capture.h"
 #include "core/safety/Interlock.h"
 #include "core/safety/StopCounter.h"
@@ -66,10 +67,9 @@ struct BenchConfig {
     /// Where the exposure and faults of units are kept (UnitRecord.h); empty: nowhere. A stimulator continues from its
     /// record, and no other process can use it meanwhile. A simulated stimulator never has a record.
     UnitFolders units;
-    /// Returns the hash of the profile that the board of `devices.sensor` must have, where its encoder drives
-    /// (EncodingSensor.h): of this profile, stimulator and load. Empty: such a board is not armed. Errors: what of them
-    /// a board cannot do.
-    std::function<Result<std::uint32_t>(const TactileSensor&, const Profile&, const GateSetup&)> encoderHash;
+    /// Returns the profile that the board of `devices.sensor` must have to encode (EncodingSensor.h): of this profile,
+    /// stimulator and load. Empty: no board drives. Errors: what of them a board cannot do.
+    std::function<Result<BoardProfile>(const TactileSensor&, const Profile&, const GateSetup&)> boardProfile;
     const SystemTime* systemTime = nullptr;  ///< the unit record's clock; null: the system's clock. Outlives the bench
 };
 
@@ -104,7 +104,9 @@ public:
 
     /// Disarmed → Checking (one small pulse) → Armed. If the stimulator does not read back and an oscilloscope is
     /// open, the capture must show the pulse, within 20 %, and a load in the declared range; it replaces a request
-    /// for captures. Errors: NotArmed with what is missing; LimitExceeded; Device; Stopped.
+    /// for captures. A board whose encoder takes a profile (EncoderLoader.h) is first given this bench's, for this
+    /// load. Errors: NotArmed with what is missing, and if the fingertip drives and its board encodes by another
+    /// profile; LimitExceeded; Device; Stopped.
     [[nodiscard]] Result<void> arm(const ArmRequest& request);
     /// Checks the load as arm() does, and always disarms afterwards. Only the check pulse is delivered. Returns |Z|,
     /// or nothing if the stimulator does not read back. Errors: as arm().
@@ -152,7 +154,8 @@ public:
     static constexpr Seconds kAttended{2};
 
     /// Sets the source that drives the encoder from the next train on. `roughness`, `pressure` (0..1): Manual only.
-    /// Errors: InvalidArgument outside 0..1 or NaN; Unsupported for Sensor without a sensor; Stopped, unless Off.
+    /// Errors: InvalidArgument outside 0..1 or NaN; Unsupported for Sensor without a sensor; NotArmed for Sensor while
+    /// armed if its board encodes by another profile than this bench's; Stopped, unless Off.
     [[nodiscard]] Result<void> drive(DriveSource source, double roughness = 0, double pressure = 0);
     /// Makes one presentation with the profile's kind of train and waits for its end. Every train is approved by the
     /// gate, delivered, read back and judged as usual. If the last impedance reading would be more than 5 s old by the

@@ -1,5 +1,7 @@
 #include "core/bench/BenchState.h"
 
+#include <algorithm>
+#include <cmath>
 #include <span>
 #include <utility>
 #include <vector>
@@ -136,21 +138,28 @@ Result<void> Bench::State::openRecorder(ControlLoop::Parts& parts) {
         const auto id = config.session->addStream(SessionStream{"roughness frames", "frames", "", columns, 0});
         if (!id) return failure(id);
         parts.frameStream = *id;
-        if (const auto& encoder = sensor->encoder()) {
+        if (sensor->boardEncodes()) {
             const auto board =
                 config.session->addStream(SessionStream{"board's frames", "board_frames", "", columns, 0});
             if (!board) return failure(board);
             parts.boardStream = *board;
-            const auto noted =
-                config.session->event(config.clock->now(), "board encodes",
-                                      {{"hash", fmt::format("{:08x}", encoder->hash)}, {"drives", encoder->drives}});
-            if (!noted) return failure(noted);
+            if (const auto noted = noteBoard(); !noted) return noted;
         }
     }
     recorder =
         std::make_unique<SessionRecorder>(*config.session, SessionRecorder::Settings{.ownThread = !time.isVirtual()});
     parts.recorder = recorder.get();
     return {};
+}
+
+/// Records by which profile the board encodes.
+Result<void> Bench::State::noteBoard() {
+    const auto encoder = terms.boardEncoder();
+    if (config.session == nullptr || !encoder) return {};
+    const auto noted =
+        config.session->event(config.clock->now(), "board encodes",
+                              {{"hash", fmt::format("{:08x}", encoder->hash)}, {"drives", encoder->drives}});
+    return noted ? Result<void>{} : failure(noted);
 }
 
 void Bench::State::openScope() {
@@ -198,6 +207,33 @@ Result<void> Bench::State::health() const {
         return fail(ErrorCode::Io, "recording failed: {}", why ? why->message : "the session file cannot be written");
     }
     return {};
+}
+
+/// A check pulse is not counted.
+bool Bench::State::hasRested() const noexcept {
+    constexpr Instant kRest = std::chrono::seconds(8);
+    const Instant since = time.now() - kRest;
+    return std::ranges::none_of(loop->telemetry().programmed, [since](const ProgrammedTrain& train) {
+        return !train.isCheck && std::isfinite(train.amplitude) && train.until > since;
+    });
+}
+
+Result<void> Bench::State::fitBoard(const Load& load) {
+    if (!sensor || !sensor->takesProfile() || !config.devices.stimulator) return terms.checkEncoder(load);
+    const auto wanted = terms.boardProfile(load);
+    if (!wanted || wanted->hash == terms.boardEncoder()->hash) return terms.checkEncoder(load);
+    if (isArmed()) {
+        return fail(ErrorCode::NotArmed,
+                    "the fingertip's board encodes for another load, and its profile is written only while the output "
+                    "is disarmed, not while {}: disarm first",
+                    nameOf(interlock.state()));
+    }
+    if (const auto written = sensor->load(*wanted, hasRested()); !written) {
+        return fail(ErrorCode::NotArmed, "the profile \"{}\" was not written into the fingertip's board: {}",
+                    config.profile.name, written.error().message);
+    }
+    if (const auto noted = noteBoard(); !noted) return noted;
+    return terms.checkEncoder(load);
 }
 
 Result<void> Bench::State::rest() {

@@ -53,6 +53,13 @@ struct Bench::State {
         return driving.load(std::memory_order_acquire) == DriveSource::Manual && loop->refusals() != refusalsSeen;
     }
     [[nodiscard]] Result<void> refusal();
+    [[nodiscard]] bool isArmed() const noexcept {
+        const auto state = interlock.state();
+        return state != InterlockState::Disarmed && state != InterlockState::Disconnected;
+    }
+    /// Gives a board that takes one this bench's profile for this load, and checks what the board has. Errors: NotArmed
+    /// while armed, if it has another, and if it does not take it; as ArmingTerms::checkEncoder().
+    [[nodiscard]] Result<void> fitBoard(const Load& load);
     /// Checks that a presentation may begin now. Errors: NotArmed; as health().
     [[nodiscard]] Result<void> readyToPresent() const;
     [[nodiscard]] Result<std::unique_ptr<FingerInput>> makeFinger(const Profile& profile);
@@ -76,16 +83,20 @@ struct Bench::State {
 
     StandingOrder order;
     std::atomic<DriveSource> driving{DriveSource::Off};
+    Result<void> boardFits;          // what fitBoard() found for the load that is armed
     std::uint64_t refusalsSeen = 0;  // refusals already shown to the caller of drive(), wait() and capture()
 
     BenchTime time{*config.clock, output, order};  // last, so that its threads end first
     BenchLevels levels{config, output, calibration, terms, notes, gate, time, loop};
 
 private:
+    /// True if no train came out in the last 8 s.
+    [[nodiscard]] bool hasRested() const noexcept;
     [[nodiscard]] Result<void> lookIntoFault();
     [[nodiscard]] Result<void> letReportsBeJudged();
     [[nodiscard]] Result<void> takeUpRecord();
     [[nodiscard]] Result<void> openRecorder(ControlLoop::Parts& parts);
+    [[nodiscard]] Result<void> noteBoard();
     void openScope();
     void noteCapture(Capture& capture);
 };

@@ -4,7 +4,8 @@
 //
 // A board's encoder has one profile, known by its hash (resources/firmware/tactile_encoder).
 //
-// Thread-safety: encoder() is constant while the device is open; encoded() as TactileSensor::read().
+// Thread-safety: encoder() is constant while the device is open, but for the hash of a board whose profile is written
+// anew (EncoderLoader.h); encoded() as TactileSensor::read().
 #pragma once
 
 #include <cstdint>

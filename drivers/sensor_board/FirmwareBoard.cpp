@@ -103,7 +103,6 @@ bool FirmwareBoard::describe() {
     setup_.serial = serial_.c_str();
     setup_.firmware = firmware_.c_str();
     setup_.streams = static_cast<std::uint8_t>(streams.size());
-    setup_.rested = 1;
     for (std::size_t s = 0; s < streams.size(); ++s) {
         const auto& info = streams[s];
         if (info.channels == 0 || info.channels > TSB_COLUMNS_MOST) return false;
@@ -124,10 +123,11 @@ bool FirmwareBoard::describe() {
     return tb_init(board_.get(), &setup_, &hardware_) != 0;
 }
 
-void FirmwareBoard::restart(const te_profile* profile) {
+void FirmwareBoard::restart(const te_profile* profile, bool rested) {
     const std::scoped_lock lock(mutex_);
     if (profile != nullptr) profile_ = *profile;
     setup_.profile = profile != nullptr ? &profile_ : nullptr;
+    setup_.rested = rested ? 1 : 0;
     powered_s_ = toSeconds(clock_.now());
     now_us_ = 0;
     toBoard_.clear();

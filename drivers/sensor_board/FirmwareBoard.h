@@ -33,8 +33,9 @@ public:
                                                                      std::string serial, std::string firmware,
                                                                      const Clock& clock, double drift_ppm);
 
-    /// Switches it off and on: with this profile, or none. Nothing came out before, so its encoder need not rest.
-    void restart(const te_profile* profile);
+    /// Switches it off and on: with this profile, or none. `rested`: nothing came out in the last 8 s, so that its
+    /// encoder need not rest.
+    void restart(const te_profile* profile, bool rested);
     /// A line to it. Its errors: Device, as the sensors.
     [[nodiscard]] std::unique_ptr<Transport> line();
 

@@ -24,13 +24,16 @@ Result<void> PluggedBoard::read(std::span<SampleBlock> blocks) {
     return taken;
 }
 
-Result<void> PluggedBoard::reconnect() {
-    if (board_) {
-        before_ = together(before_, board_->report());
-        board_.reset();  // closed before the same device is opened again
-    }
+/// It is closed before the same device is opened again.
+void PluggedBoard::close() {
+    if (!board_) return;
+    before_ = together(before_, board_->report());
+    board_.reset();
+}
+
+Result<std::unique_ptr<SensorBoard>> PluggedBoard::openAgain() const {
     auto opened = open_(identity_.serial);
-    if (!opened) return failure(opened);
+    if (!opened) return opened;
     const auto& found = **opened;
     const auto same = [](const StreamInfo& a, const StreamInfo& b) {
         return a.kind == b.kind && a.unit == b.unit && a.channels == b.channels && a.rate_hz == b.rate_hz;
@@ -40,12 +43,29 @@ Result<void> PluggedBoard::reconnect() {
                     "{} {} came back with other streams than it had; close the bench and open it again", identity_.name,
                     identity_.serial);
     }
-    if (found.encoder() != encoder_) {
+    return opened;
+}
+
+Result<void> PluggedBoard::reconnect() {
+    close();
+    auto opened = openAgain();
+    if (!opened) return failure(opened);
+    if ((*opened)->encoder() != encoder_) {
         return fail(ErrorCode::Device,
                     "{} {} came back with another profile in its encoder; close the bench and open it again",
                     identity_.name, identity_.serial);
     }
     board_ = std::move(*opened);
+    return {};
+}
+
+Result<void> PluggedBoard::rewrite(const std::function<void()>& write) {
+    close();
+    write();
+    auto opened = openAgain();
+    if (!opened) return failure(opened);
+    board_ = std::move(*opened);
+    encoder_ = board_->encoder();
     return {};
 }
 

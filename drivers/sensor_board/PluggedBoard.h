@@ -2,7 +2,8 @@
 // was unplugged.
 //
 // The board that comes back must be the same one with the same settings and the same profile in its encoder, so that
-// the streams of a session that records them do not change. The counts in its reports continue.
+// the streams of a session that records them do not change; only rewrite() gives it another profile. The counts in its
+// reports continue.
 //
 // Thread-safety: as TactileSensor; deviceReport() from any thread.
 #pragma once
@@ -30,12 +31,17 @@ public:
     [[nodiscard]] std::optional<BoardEncoder> encoder() const noexcept override { return encoder_; }
     [[nodiscard]] const Encoded& encoded() const noexcept override { return encoded_; }
     [[nodiscard]] Result<void> reconnect() override;
+    /// Opens the board again after `write` has given it another profile, while it is closed. Errors: as reconnect().
+    [[nodiscard]] Result<void> rewrite(const std::function<void()>& write);
     [[nodiscard]] DeviceReport deviceReport() const noexcept override;
 
 private:
+    void close();
+    [[nodiscard]] Result<std::unique_ptr<SensorBoard>> openAgain() const;
+
     const DeviceIdentity identity_;
     const std::vector<StreamInfo> streams_;
-    const std::optional<BoardEncoder> encoder_;
+    std::optional<BoardEncoder> encoder_;
     Encoded encoded_;
     const Open open_;
     std::unique_ptr<SensorBoard> board_;  // null after a failed reconnect()

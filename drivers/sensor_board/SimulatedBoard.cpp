@@ -17,7 +17,10 @@ bool SimulatedBoard::isOwn(std::string_view key) noexcept { return std::ranges::
 
 SimulatedBoard::SimulatedBoard(DeviceIdentity identity, std::shared_ptr<FirmwareBoard> board, Encodes encodes,
                                const Clock& clock)
-    : identity_(std::move(identity)), board_(std::move(board)), encodes_(encodes), clock_(clock) {}
+    : identity_(std::move(identity)), board_(std::move(board)), encodes_(encodes), clock_(clock) {
+    settings_->uri = identity_.uri;
+    settings_->emulated = true;
+}
 
 Result<std::unique_ptr<TactileSensor>> SimulatedBoard::open(std::unique_ptr<TactileSensor> finger, const DeviceUri& uri,
                                                             const Clock& clock) {
@@ -41,36 +44,42 @@ Result<std::unique_ptr<TactileSensor>> SimulatedBoard::open(std::unique_ptr<Tact
         profile = std::move(*bytes);
         board->hasOwnProfile_ = true;
     }
-    if (auto begun = board->begin(profile); !begun) return uri.refuse(begun.error());
+    if (auto begun = board->begin(profile, true); !begun) return uri.refuse(begun.error());
     return board;
 }
 
-Result<void> SimulatedBoard::load(std::string_view profile) {
-    auto begun = begin(profile);
-    if (!begun) static_cast<void>(begin({}));  // as it was before
+Result<void> SimulatedBoard::load(std::string_view profile, bool rested) {
+    auto begun = begin(profile, rested);
+    if (!begun) static_cast<void>(begin(profile_, rested));
     return begun;
 }
 
-Result<void> SimulatedBoard::begin(std::string_view bytes) {
-    te_profile profile{};
+Result<void> SimulatedBoard::begin(std::string_view bytes, bool rested) {
+    te_profile read{};
     if (!bytes.empty()) {
-        const auto refusal = te_read_profile(&profile, reinterpret_cast<const std::uint8_t*>(bytes.data()),
+        const auto refusal = te_read_profile(&read, reinterpret_cast<const std::uint8_t*>(bytes.data()),
                                              static_cast<std::uint32_t>(bytes.size()));
         if (refusal != TE_ACCEPTED) return invalid("the profile for its encoder has {}", wordsOf(refusal));
     }
-    plugged_.reset();  // says STOP to the board as it was
-    board_->restart(bytes.empty() ? nullptr : &profile);
-    SensorBoardSettings settings;
-    settings.uri = identity_.uri;
-    settings.emulated = true;
-    settings.encodes = bytes.empty() ? Encodes::No : encodes_;
-    const auto connect = [board = board_, settings, &clock = clock_](const std::string&) {
-        return SensorBoard::open(board->line(), settings, clock);
-    };
-    auto opened = connect({});
-    if (!opened) return failure(opened);
-    plugged_ = std::make_unique<PluggedBoard>(std::move(*opened), connect);
+    const auto* profile = bytes.empty() ? nullptr : &read;
+    if (plugged_) {
+        if (auto begun = plugged_->rewrite([&] { restart(profile, rested); }); !begun) return begun;
+    } else {
+        restart(profile, rested);
+        const auto connect = [board = board_, settings = settings_, &clock = clock_](const std::string&) {
+            return SensorBoard::open(board->line(), *settings, clock);
+        };
+        auto opened = connect({});
+        if (!opened) return failure(opened);
+        plugged_ = std::make_unique<PluggedBoard>(std::move(*opened), connect);
+    }
+    profile_ = bytes;
     return {};
+}
+
+void SimulatedBoard::restart(const te_profile* profile, bool rested) {
+    board_->restart(profile, rested);
+    settings_->encodes = profile != nullptr ? encodes_ : Encodes::No;
 }
 
 }  // namespace tacto::sensorboard

@@ -40,19 +40,22 @@ public:
     [[nodiscard]] std::optional<BoardEncoder> encoder() const noexcept override { return plugged_->encoder(); }
     [[nodiscard]] const Encoded& encoded() const noexcept override { return plugged_->encoded(); }
     [[nodiscard]] bool wantsProfile() const noexcept override { return encodes_ != Encodes::No && !hasOwnProfile_; }
-    [[nodiscard]] Result<void> load(std::string_view profile) override;
+    [[nodiscard]] Result<void> load(std::string_view profile, bool rested) override;
     [[nodiscard]] DeviceReport deviceReport() const noexcept override { return plugged_->deviceReport(); }
     [[nodiscard]] Result<void> reconnect() override { return plugged_->reconnect(); }
 
 private:
     SimulatedBoard(DeviceIdentity identity, std::shared_ptr<FirmwareBoard> board, Encodes encodes, const Clock& clock);
-    [[nodiscard]] Result<void> begin(std::string_view profile);
+    [[nodiscard]] Result<void> begin(std::string_view profile, bool rested);
+    void restart(const te_profile* profile, bool rested);
 
     const DeviceIdentity identity_;
     const std::shared_ptr<FirmwareBoard> board_;
     const Encodes encodes_;
+    const std::shared_ptr<SensorBoardSettings> settings_ = std::make_shared<SensorBoardSettings>();
     const Clock& clock_;
     bool hasOwnProfile_ = false;
+    std::string profile_;  // in its encoder; empty: none
     std::unique_ptr<PluggedBoard> plugged_;
 };
 

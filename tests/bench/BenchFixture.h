@@ -52,7 +52,7 @@ protected:
         config.calibratedUntil = calibratedUntil_;
         config.today = today_;
         config.person = person_;
-        config.encoderHash = encoderHash_;
+        config.boardProfile = boardProfile_;
         config.mode = person_ ? OutputMode::Person : OutputMode::BenchLoad;
         config.virtualParticipant = person_.has_value() && !looksReal_;  // the devices are simulated
         bench_ = accepted(Bench::create(std::move(config)));
@@ -75,7 +75,7 @@ protected:
     bool calibrationHolds_ = true;
     std::optional<std::chrono::sys_days> calibratedUntil_;
     std::chrono::sys_days (*today_)() = nullptr;
-    decltype(BenchConfig::encoderHash) encoderHash_;
+    decltype(BenchConfig::boardProfile) boardProfile_;
     std::optional<PersonSetup> person_;  ///< if set, the bench is for a person
     bool looksReal_ = false;             ///< the next opened device is treated as a real one
     /// Wraps the next opened stimulator.

@@ -1,5 +1,8 @@
 // A board that encodes: the bench plays its trains and no others, each once, on time and through the gate, and arms
 // only for a board with the bench's own profile.
+#include <cstring>
+#include <fmt/format.h>
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -21,9 +24,9 @@ using testing::HasSubstr;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// A finger whose board says what the test says.
-class EncodingFinger final : public TactileSensor, public EncodingSensor {
+class EncodingFinger : public TactileSensor, public EncodingSensor {
 public:
-    EncodingFinger(const Clock& clock, BoardEncoder encoder) : finger_(clock), encoder_(encoder) {}
+    EncodingFinger(const Clock& clock, BoardEncoder encoder) : encoder_(encoder), finger_(clock) {}
     const DeviceIdentity& identity() const noexcept override { return finger_.identity(); }
     std::span<const StreamInfo> streams() const noexcept override { return finger_.streams(); }
     Result<void> read(std::span<SampleBlock> blocks) override {
@@ -36,10 +39,28 @@ public:
     Encoded next;         ///< comes with the next read()
     bool silent = false;  ///< true: no samples come any more
 
+protected:
+    BoardEncoder encoder_;
+
 private:
     TapedFinger finger_;
-    const BoardEncoder encoder_;
     Encoded encoded_;
+};
+
+/// One whose board takes a profile: four bytes, its hash.
+class WritableFinger final : public EncodingFinger, public EncoderLoader {
+public:
+    using EncodingFinger::EncodingFinger;
+    bool wantsProfile() const noexcept override { return true; }
+    Result<void> load(std::string_view profile, bool rested) override {
+        if (onLoad) onLoad(rested);
+        if (refuses) return fail(ErrorCode::Device, "its memory is worn out");
+        std::memcpy(&encoder_.hash, profile.data(), sizeof encoder_.hash);
+        return {};
+    }
+
+    std::function<void(bool rested)> onLoad;
+    bool refuses = false;
 };
 
 /// A control loop that is armed and driven by the finger, on a virtual clock in steps of a millisecond.
@@ -381,13 +402,46 @@ TEST(BoardEncodes, WhateverItSendsWhatIsPlayedIsOneOfItsTrainsInOrderAndWithinTh
 
 class BoardEncodesBench : public BenchFixture {
 protected:
-    void openWith(BoardEncoder encoder) {
-        wrapSensor_ = [this, encoder](std::unique_ptr<TactileSensor>) {
-            auto made = std::make_unique<EncodingFinger>(*clock_, encoder);
-            finger_ = made.get();
+    template <class Finger = EncodingFinger>
+    Finger& openWith(BoardEncoder encoder) {
+        Finger* opened = nullptr;
+        wrapSensor_ = [&](std::unique_ptr<TactileSensor>) {
+            auto made = std::make_unique<Finger>(*clock_, encoder);
+            opened = made.get();
             return made;
         };
         open({}, {Role::Stimulator, Role::Sensor});
+        finger_ = opened;
+        return *opened;
+    }
+    [[nodiscard]] Result<void> armDriven(const std::string& load = "1 kohm") {
+        if (auto driven = bench_->drive(DriveSource::Sensor); !driven) return driven;
+        return armOn(load);
+    }
+    [[nodiscard]] Result<void> armOn(const std::string& load) {
+        if (state() == InterlockState::Disarmed) static_cast<void>(bench_->devices().load->fitLoad(load));
+        return arm(load);
+    }
+    static std::uint32_t hashFor(double ohms, const Profile& profile) {
+        return static_cast<std::uint32_t>(100 * ohms + profile.encoding.amplitudeMax.value());
+    }
+    /// Each load and largest amplitude has a hash of its own.
+    void profileByLoad() {
+        boardProfile_ = [](const TactileSensor&, const Profile& profile,
+                           const GateSetup& setup) -> Result<BoardProfile> {
+            const auto hash = hashFor(setup.load.nominal.series.value(), profile);
+            std::string bytes(sizeof hash, 0);
+            std::memcpy(bytes.data(), &hash, sizeof hash);
+            return BoardProfile{hash, bytes};
+        };
+    }
+    /// The board sends a train; returns whether the bench delivered one.
+    bool playsOne(double volts = 20) {
+        finger_->next.trains.push_back(
+            {toSeconds(clock_->now()), Seconds(0.5), Volts(volts), volts, profile_.encoding.train});
+        const auto before = bench_->telemetry().trainsDelivered;
+        EXPECT_TRUE(bench_->wait(Seconds(0.6)).has_value());
+        return bench_->telemetry().trainsDelivered != before;
     }
 
     EncodingFinger* finger_ = nullptr;
@@ -396,20 +450,22 @@ protected:
 TEST_F(BoardEncodesBench, IsArmedOnlyWithTheBenchsOwnProfileInTheBoard) {
     RecordProperty("hazard", "H4");
     std::vector<double> loads;
-    encoderHash_ = [&](const TactileSensor&, const Profile& profile, const GateSetup& setup) -> Result<std::uint32_t> {
+    boardProfile_ = [&](const TactileSensor&, const Profile& profile, const GateSetup& setup) -> Result<BoardProfile> {
         loads.push_back(setup.load.nominal.series.value());
         if (profile.encoding.hold != Hold::Voltage) return fail(ErrorCode::Unsupported, "it holds the charge");
-        return 0xABCDU;
+        return BoardProfile{0xABCD, {}};
     };
     openWith({true, 0x1234});
-    EXPECT_THAT(arm("2 kohm"), refused(ErrorCode::NotArmed, HasSubstr("with hash 00001234, and the profile \"default\" "
-                                                                      "with this stimulator and load has 0000abcd")));
+    EXPECT_THAT(armDriven("2 kohm"),
+                refused(ErrorCode::NotArmed, HasSubstr("not armed: the board encodes by a profile with hash 00001234, "
+                                                       "and the profile \"default\" with this stimulator and load has "
+                                                       "0000abcd")));
     EXPECT_EQ(loads, (std::vector<double>{2000}));
     EXPECT_EQ(state(), InterlockState::Disarmed);
     openWith({false, 0x1234});
     EXPECT_TRUE(arm().has_value()) << "its trains are only shown";
     openWith({true, 0xABCD});
-    ASSERT_TRUE(arm().has_value());
+    ASSERT_TRUE(armDriven().has_value());
     auto changed = profile_;
     changed.roughness.spectralWeight = 0.25;
     EXPECT_THAT(bench_->setProfile(changed), refused(ErrorCode::NotArmed, HasSubstr("the fingertip's board encodes")));
@@ -417,18 +473,97 @@ TEST_F(BoardEncodesBench, IsArmedOnlyWithTheBenchsOwnProfileInTheBoard) {
     EXPECT_TRUE(bench_->setProfile(changed).has_value());
     changed.encoding.hold = Hold::Charge;
     EXPECT_TRUE(bench_->setProfile(changed).has_value());
-    EXPECT_THAT(arm(), refusedSaying("is not for a board that encodes: it holds the charge"));
+    EXPECT_THAT(armDriven(), refusedSaying("is not for a board that encodes: it holds the charge"));
 }
 
 TEST_F(BoardEncodesBench, IsNotArmedWhereNobodyKnowsItsProfile) {
     RecordProperty("hazard", "H4");
     openWith({true, 0});
-    EXPECT_THAT(arm(), refused(ErrorCode::NotArmed, HasSubstr("cannot tell whose profile the board has")));
+    EXPECT_THAT(armDriven(), refused(ErrorCode::NotArmed, HasSubstr("cannot tell whose profile the board has")));
+}
+
+TEST_F(BoardEncodesBench, ByHandItsProfileIsNotAskedForAndItsTrainsAreNotPlayed) {
+    RecordProperty("hazard", "H4");
+    profileByLoad();
+    openWith({true, hashFor(1000, profile_)});
+    ASSERT_TRUE(armOn("2 kohm").has_value());
+    const auto isRefused =
+        refused(ErrorCode::NotArmed, HasSubstr("the fingertip does not drive: the board encodes by a profile"));
+    EXPECT_THAT(bench_->drive(DriveSource::Sensor), isRefused);
+    EXPECT_FALSE(arm("1 kohm").has_value()) << "it is armed";
+    EXPECT_THAT(bench_->drive(DriveSource::Sensor), isRefused) << "it is armed for 2 kohm";
+    EXPECT_FALSE(playsOne());
+    ASSERT_TRUE(bench_->drive(DriveSource::Manual, 0, 0).has_value());
+    for (int i = 0; i < 20; ++i) {
+        static_cast<void>(playsOne(30));
+        EXPECT_LE(bench_->telemetry().trainAmplitude, 10.5) << "the bench's own, at R 0";
+    }
+    EXPECT_GE(bench_->telemetry().trainsDelivered, 4U);
+    EXPECT_THAT(bench_->drive(DriveSource::Sensor), isRefused);
+    bench_->disarm();
+    ASSERT_TRUE(armDriven("1 kohm").has_value());
+    EXPECT_TRUE(playsOne());
+}
+
+TEST_F(BoardEncodesBench, AProfileIsWrittenIntoABoardThatTakesOneAndNeverWhileArmed) {
+    RecordProperty("hazard", "H4");
+    profileByLoad();
+    auto& finger = openWith<WritableFinger>({true, 0});
+    ASSERT_TRUE(armDriven("2 kohm").has_value());
+    EXPECT_EQ(finger.encoder()->hash, hashFor(2000, profile_));
+    EXPECT_THAT(armDriven("1 kohm"),
+                refused(ErrorCode::NotArmed, HasSubstr("written only while the output is disarmed, not while")));
+    EXPECT_EQ(finger.encoder()->hash, hashFor(2000, profile_));
+    EXPECT_TRUE(playsOne());
+    bench_->disarm();
+    finger.refuses = true;
+    EXPECT_THAT(armDriven("1 kohm"), refused(ErrorCode::NotArmed, HasSubstr("board: its memory is worn out")));
+    finger.refuses = false;
+    bench_->disarm();
+
+    int written = 0;
+    Instant last{0};  // a train
+    finger.onLoad = [&](bool rested) {
+        ++written;
+        EXPECT_EQ(rested, last == Instant(0) || clock_->now() - last > std::chrono::seconds(8));
+        EXPECT_EQ(state(), InterlockState::Disarmed);
+    };
+    Random random(7, "orders");
+    const auto toss = [&](std::uint64_t sides) { return random.below(sides); };
+    double ohms = 0;  // of the load that is armed
+    int played = 0;
+    for (int i = 0; i < 400; ++i) {
+        auto changed = bench_->profile();
+        switch (toss(6)) {
+            case 0:
+                bench_->disarm();
+                break;
+            case 1:
+            case 2:
+                if (const auto kohm = 1 + toss(3); armOn(fmt::format("{} kohm", kohm)))
+                    ohms = 1000 * static_cast<double>(kohm);
+                break;
+            case 3:
+                changed.encoding.amplitudeMax = Volts(31 + static_cast<double>(toss(3)));
+                static_cast<void>(bench_->setProfile(changed));
+                break;
+            default:
+                static_cast<void>(bench_->drive(DriveSource::Sensor));
+        }
+        if (!playsOne()) continue;
+        ++played;
+        last = clock_->now() - toInstant(Seconds(0.55));
+        EXPECT_EQ(finger.encoder()->hash, hashFor(ohms, bench_->profile()));
+    }
+    EXPECT_GT(written, 20);
+    EXPECT_GT(played, 30);
 }
 
 TEST_F(BoardEncodesBench, TheGateRefusesItsTrainAsAnyOther) {
     RecordProperty("hazard", "H1");
-    encoderHash_ = [](const TactileSensor&, const Profile&, const GateSetup&) -> Result<std::uint32_t> { return 1U; };
+    boardProfile_ = [](const TactileSensor&, const Profile&, const GateSetup&) -> Result<BoardProfile> {
+        return BoardProfile{1, {}};
+    };
     profile_.ceilings = {{Quantity::PeakCurrent, 25}};
     openWith({true, 1});
     ASSERT_TRUE(arm().has_value());
@@ -455,7 +590,9 @@ TEST_F(BoardEncodesBench, TheSessionTellsWhatTheBoardSaid) {
     const auto file = folder.path() / "run.tacto";
     const auto writer = SessionWriter::create(file, {}, sessionClock).value();
     session_ = writer.get();
-    encoderHash_ = [](const TactileSensor&, const Profile&, const GateSetup&) -> Result<std::uint32_t> { return 0xAU; };
+    boardProfile_ = [](const TactileSensor&, const Profile&, const GateSetup&) -> Result<BoardProfile> {
+        return BoardProfile{0xA, {}};
+    };
     openWith({true, 0xA});
     ASSERT_TRUE(arm().has_value());
     ASSERT_TRUE(bench_->drive(DriveSource::Sensor).has_value());
@@ -503,7 +640,9 @@ class PersonAtABoard : public PersonFixture {};
 
 TEST_F(PersonAtABoard, IsNotStimulatedByItsTrains) {
     RecordProperty("hazard", "H1");
-    encoderHash_ = [](const TactileSensor&, const Profile&, const GateSetup&) -> Result<std::uint32_t> { return 1U; };
+    boardProfile_ = [](const TactileSensor&, const Profile&, const GateSetup&) -> Result<BoardProfile> {
+        return BoardProfile{1, {}};
+    };
     wrapSensor_ = [this](std::unique_ptr<TactileSensor>) {
         return std::make_unique<EncodingFinger>(*clock_, BoardEncoder{true, 1});
     };

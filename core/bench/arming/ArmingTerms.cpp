@@ -4,7 +4,6 @@
 
 #include "core/bench/arming/CommandPreview.h"
 #include "core/devices/Device.h"
-#include "core/devices/EncodingSensor.h"
 #include "core/devices/Stimulator.h"
 
 namespace tacto {
@@ -45,37 +44,38 @@ Result<void> ArmingTerms::checkConfirmed(const ArmRequest& request, const Load& 
                 request.confirmed, shown);
 }
 
-namespace {
-std::optional<BoardEncoder> encoderOf(const BenchConfig& config) noexcept {
-    const auto* board = dynamic_cast<const EncodingSensor*>(config.devices.sensor.get());
+std::optional<BoardEncoder> ArmingTerms::boardEncoder() const noexcept {
+    const auto* board = dynamic_cast<const EncodingSensor*>(config_.devices.sensor.get());
     return board != nullptr ? board->encoder() : std::nullopt;
 }
-}  // namespace
 
 bool ArmingTerms::boardDrives() const noexcept {
-    const auto encoder = encoderOf(config_);
+    const auto encoder = boardEncoder();
     return encoder && encoder->drives;
+}
+
+Result<BoardProfile> ArmingTerms::boardProfile(const Load& load) const {
+    if (!config_.boardProfile) return fail(ErrorCode::NotArmed, "this program cannot tell whose profile the board has");
+    auto made = config_.boardProfile(*config_.devices.sensor, config_.profile, setupFor(load));
+    if (made) return made;
+    return fail(ErrorCode::NotArmed, "the profile \"{}\" is not for a board that encodes: {}", config_.profile.name,
+                made.error().message);
 }
 
 Result<void> ArmingTerms::checkEncoder(const Load& load) const {
     if (!boardDrives()) return {};
     if (config_.mode == OutputMode::Person)
-        return fail(ErrorCode::NotArmed, "not armed: a board that encodes is for loads on a bench, not for a person");
+        return fail(ErrorCode::NotArmed, "a board that encodes is for loads on a bench, not for a person");
     if (!config_.devices.stimulator)
-        return fail(ErrorCode::NotArmed, "not armed: a board that encodes drives a stimulator, and none is open");
-    if (!config_.encoderHash)
-        return fail(ErrorCode::NotArmed, "not armed: this program cannot tell whose profile the board has");
-    const auto hash = config_.encoderHash(*config_.devices.sensor, config_.profile, setupFor(load));
-    if (!hash) {
-        return fail(ErrorCode::NotArmed, "not armed: the profile \"{}\" is not for a board that encodes: {}",
-                    config_.profile.name, hash.error().message);
-    }
-    const auto has = encoderOf(config_)->hash;
-    if (*hash == has) return {};
+        return fail(ErrorCode::NotArmed, "a board that encodes drives a stimulator, and none is open");
+    const auto wanted = boardProfile(load);
+    if (!wanted) return failure(wanted);
+    const auto has = boardEncoder()->hash;
+    if (wanted->hash == has) return {};
     return fail(ErrorCode::NotArmed,
-                "not armed: the board encodes by a profile with hash {:08x}, and the profile \"{}\" with this "
-                "stimulator and load has {:08x}; write that one into the board (tactoscope-cli firmware-profile)",
-                has, config_.profile.name, *hash);
+                "the board encodes by a profile with hash {:08x}, and the profile \"{}\" with this stimulator and load "
+                "has {:08x}; write that one into the board (tactoscope-cli firmware-profile)",
+                has, config_.profile.name, wanted->hash);
 }
 
 ArmCommand ArmingTerms::commandFor(const ArmRequest& request, const Load& load, StopMark asked) const {

@@ -10,6 +10,7 @@
 #include "core/bench/BenchNotes.h"
 #include "core/bench/arming/ArmingSequence.h"
 #include "core/bench/delivery/BenchOutput.h"
+#include "core/devices/EncodingSensor.h"
 
 namespace tacto {
 
@@ -49,10 +50,15 @@ public:
     [[nodiscard]] std::string text(const Load& load) const;
     /// Errors: NotArmed unless the request confirms text(load); for a simulated output the confirmation may be empty.
     [[nodiscard]] Result<void> checkConfirmed(const ArmRequest& request, const Load& load) const;
+    /// The encoder of the fingertip's board; nothing if it does not encode.
+    [[nodiscard]] std::optional<BoardEncoder> boardEncoder() const noexcept;
     /// True if the trains of the fingertip's board are played while it drives.
     [[nodiscard]] bool boardDrives() const noexcept;
-    /// Errors: NotArmed where the board drives and this is a person, no stimulator is open, or the board has another
-    /// profile than this bench (BenchConfig::encoderHash).
+    /// Returns the profile that the board must have to encode for this load. Errors: NotArmed, naming what no board
+    /// can do.
+    [[nodiscard]] Result<BoardProfile> boardProfile(const Load& load) const;
+    /// Checks that the trains of the board, if it drives, may be played into this load. Errors: NotArmed if this is a
+    /// person, no stimulator is open, or the board has another profile than boardProfile().
     [[nodiscard]] Result<void> checkEncoder(const Load& load) const;
     /// Prepares the second step of arming, for the order given at `asked`.
     [[nodiscard]] ArmCommand commandFor(const ArmRequest& request, const Load& load, StopMark asked) const;

@@ -27,7 +27,7 @@ public:
     /// What the board's own encoder said; empty if it does not encode.
     [[nodiscard]] const Encoded& encoded() const noexcept { return encoded_; }
     /// True if the board's trains are played while the finger drives, and not the bench's own.
-    [[nodiscard]] bool boardDrives() const noexcept { return session_.encoder() && session_.encoder()->drives; }
+    [[nodiscard]] bool boardDrives() const noexcept { return session_.boardDrives(); }
     /// The newest frame; before the first, its R is NaN.
     [[nodiscard]] const RoughnessFrame& latest() const noexcept { return latest_; }
 

@@ -11,6 +11,16 @@ namespace {
 constexpr Instant kReadEvery = std::chrono::milliseconds(2);
 constexpr Instant kRecoveryPollInterval = std::chrono::milliseconds(100);  // how often a failed device is tried
 constexpr double kRingSeconds = 1;
+
+std::optional<BoardEncoder> encoderOf(const EncodingSensor* board) noexcept {
+    return board != nullptr ? board->encoder() : std::nullopt;
+}
+
+/// Nothing for a board that keeps the profile that it has.
+EncoderLoader* loaderOf(TactileSensor& device) noexcept {
+    auto* const loader = dynamic_cast<EncoderLoader*>(&device);
+    return loader != nullptr && loader->wantsProfile() ? loader : nullptr;
+}
 }  // namespace
 
 Result<std::unique_ptr<SensorSession>> SensorSession::create(TactileSensor& device) {
@@ -26,7 +36,9 @@ Result<std::unique_ptr<SensorSession>> SensorSession::create(TactileSensor& devi
 SensorSession::SensorSession(TactileSensor& device)
     : device_(device),
       encoding_(dynamic_cast<const EncodingSensor*>(&device)),
-      encoder_(encoding_ != nullptr ? encoding_->encoder() : std::nullopt) {
+      encodes_(encoderOf(encoding_).has_value()),
+      drives_(encodes_ && encoding_->encoder()->drives),
+      loader_(encodes_ ? loaderOf(device) : nullptr) {
     for (const auto& info : device.streams()) {
         const auto capacity = static_cast<std::size_t>(std::max(64.0, info.rate_hz * kRingSeconds));
         Stream stream{info.channels, {}};
@@ -42,6 +54,7 @@ SensorSession::SensorSession(TactileSensor& device)
 }
 
 Instant SensorSession::serve(Instant now) noexcept {
+    const std::scoped_lock calling(called_);
     if (healthAsked_.exchange(false, std::memory_order_acq_rel)) answerHealth();
     if (failed()) return now + kRecoveryPollInterval;
     for (auto& block : blocks_) block.clear();
@@ -53,6 +66,11 @@ Instant SensorSession::serve(Instant now) noexcept {
     hand();
     if (device_.finished()) finished_.store(true, std::memory_order_release);
     return now + kReadEvery;
+}
+
+Result<void> SensorSession::load(const BoardProfile& profile, bool rested) {
+    const std::scoped_lock calling(called_);
+    return loader_->load(profile.bytes, rested);
 }
 
 /// Puts what was read into the rings.
@@ -71,7 +89,7 @@ void SensorSession::hand() noexcept {
             },
             streams_[s].ring);
     }
-    if (!encoder_) return;
+    if (!encodes_) return;
     const auto& encoded = encoding_->encoded();
     for (const auto& frame : encoded.frames) frames_.push(frame);
     for (const auto& train : encoded.trains) trains_.push(train);

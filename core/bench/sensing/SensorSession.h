@@ -4,7 +4,7 @@
 // A failed device is not read again until askHealth(), which searches for it by identity.
 //
 // Thread-safety: serve() has one caller, the device's thread (on the virtual clock, the bench); collect()
-// has one caller, the control loop; the rest any thread.
+// has one caller, the control loop; the rest any thread, if not said otherwise.
 #pragma once
 
 #include <array>
@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/base/SpscRing.h"
+#include "core/devices/EncoderLoader.h"
 #include "core/devices/EncodingSensor.h"
 #include "core/devices/TactileSensor.h"
 #include "core/safety/FixedText.h"
@@ -36,8 +37,14 @@ public:
 
     /// Moves the samples since the last call into `blocks`, one per stream, each cleared first.
     void collect(std::span<SampleBlock> blocks) noexcept;
-    /// The encoder of the fingertip's board; nothing if it does not encode. Constant.
-    [[nodiscard]] const std::optional<BoardEncoder>& encoder() const noexcept { return encoder_; }
+    /// True if the fingertip's board encodes, and if its trains are played while it drives. Constant.
+    [[nodiscard]] bool boardEncodes() const noexcept { return encodes_; }
+    [[nodiscard]] bool boardDrives() const noexcept { return drives_; }
+    /// True for a board into which load() writes a profile. Constant.
+    [[nodiscard]] bool takesProfile() const noexcept { return loader_ != nullptr; }
+    /// Writes a profile into the board's encoder, between two serve(). Has one caller, the bench, which must not be
+    /// armed. Errors: as EncoderLoader::load().
+    [[nodiscard]] Result<void> load(const BoardProfile& profile, bool rested);
     /// Moves what the board's encoder said since the last call into `encoded`, cleared first.
     void collect(Encoded& encoded) noexcept;
 
@@ -80,7 +87,9 @@ private:
     TactileSensor& device_;
     std::vector<Stream> streams_;  // constant after construction
     const EncodingSensor* const encoding_;
-    const std::optional<BoardEncoder> encoder_;
+    const bool encodes_, drives_;
+    EncoderLoader* const loader_;
+    std::mutex called_;  // held while the device is called
     SpscRing<EncodedFrame> frames_{kFrames};
     SpscRing<EncodedTrain> trains_{kTrains};
     SpscRing<EncodedSilence> silences_{kTrains};

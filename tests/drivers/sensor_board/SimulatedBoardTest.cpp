@@ -72,10 +72,10 @@ protected:
         ASSERT_NE(encoding_, nullptr);
         blocks_.resize(devices_.sensor->streams().size());
     }
-    [[nodiscard]] Result<void> load(const te_profile& profile) {
+    [[nodiscard]] Result<void> load(const te_profile& profile, bool rested = true) {
         auto& loader = dynamic_cast<EncoderLoader&>(*devices_.sensor);
         if (!loader.wantsProfile()) return {};
-        return loader.load(profileBytes(profile));
+        return loader.load(profileBytes(profile), rested);
     }
     [[nodiscard]] Result<void> run(double seconds) {
         for (const Instant end = clock_.now() + toInstant(seconds); clock_.now() < end;) {
@@ -184,6 +184,38 @@ TEST_F(SimBoard, ComesBackAfterItWasUnplugged) {
     board_.clear();
     ASSERT_TRUE(run(1));
     EXPECT_GT(board_.frames.size(), 40U);
+}
+
+TEST_F(SimBoard, TakesAnotherProfileWhileItIsOpen) {
+    RecordProperty("hazard", "H4");
+    open("sim:board?material=P120&force=2N");
+    const auto first = profileFor(*devices_.sensor), second = profileFor(*devices_.sensor, 20);
+    ASSERT_TRUE(load(first));
+    ASSERT_TRUE(run(6));
+    ASSERT_GT(board_.trains.size(), 2U);
+    auto& loader = dynamic_cast<EncoderLoader&>(*devices_.sensor);
+    EXPECT_FALSE(loader.load("no profile", true));
+    EXPECT_EQ(encoding_->encoder()->hash, first.hash) << "it keeps what it has";
+    ASSERT_TRUE(load(second, false));
+    EXPECT_EQ(encoding_->encoder()->hash, second.hash);
+    EXPECT_TRUE(encoding_->encoder()->drives);
+    board_.clear();
+    ASSERT_TRUE(run(7.9));
+    EXPECT_GT(board_.frames.size(), 400U);
+    EXPECT_TRUE(board_.trains.empty()) << "what came out before is not known to it";
+    ASSERT_TRUE(run(6));
+    EXPECT_FALSE(board_.trains.empty());
+    for (const auto& train : board_.trains) EXPECT_LE(train.amplitude, 20);
+    ASSERT_TRUE(load(first));
+    board_.clear();
+    ASSERT_TRUE(run(4));
+    EXPECT_FALSE(board_.trains.empty()) << "it was told that nothing came out";
+    for (const auto& block : blocks_) {
+        for (std::size_t i = 1; i < block.samples(); ++i) {
+            ASSERT_GT(block.t_s[i], block.t_s[i - 1]);
+            ASSERT_LT(block.t_s[i], block.t_s[i - 1] + 0.05) << "while it is off";
+        }
+    }
 }
 
 TEST_F(SimBoard, KnowsHowFastItsClockRuns) {
