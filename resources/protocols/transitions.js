@@ -23,6 +23,7 @@ protocol({
     latency_tolerance_s: { label: "Latency, measured against design, ±", unit: "s", min: 0.001, max: 1, value: 0.02 },
     traverse_s: { label: "A finger crosses the plane in", unit: "s", min: 0.1, max: 600, value: 5 },
     lines: { label: "Lines along R and along P", type: "integer", min: 2, max: 41, value: 11 },
+    finger: { label: "Press a finger too, that drives by itself", type: "boolean", value: false },
     jumps: { label: "Judge jumps between the plane's corners too", type: "boolean", value: true },
     complete_s: { label: "A change is complete within (choice)", unit: "s", min: 0.01, max: 600, value: 2 },
     complete: {
@@ -103,6 +104,19 @@ function movementsOf() {
   return out;
 }
 
+// What a finger drives that presses harder or more lightly on its surface: a board's own trains, if it is on a board
+// that encodes. To another surface it comes by another touch, which starts over.
+function fingerChanges() {
+  const conditions = bench.conditions, out = [];
+  for (const from of conditions) {
+    for (const to of conditions) {
+      if (from.roughness !== to.roughness || from.pressure === to.pressure) continue;
+      out.push({ name: "finger, " + from.name + " to " + to.name, from, to });
+    }
+  }
+  return out;
+}
+
 // The limits on a step from train to train: the profile's, those given, or none.
 function setLimits(p) {
   bench.setEncoding({ hold: "voltage" });
@@ -119,10 +133,11 @@ function run(p) {
   setLimits(p);
   const kinds = kindsOf(p), steps = stepsOf(p, kinds), movements = movementsOf();
   const jumps = smallSteps().concat(p.jumps ? random.shuffle(cornerJumps()) : []);
+  const pressed = p.finger ? random.shuffle(fingerChanges()) : [];
   const names = (changes) => changes.map((change) => change.name);
 
   // What the encoding does all over the plane, by computation.
-  bench.transitions.begin(p, names(kinds), names(jumps.concat(movements)));
+  bench.transitions.begin(p, names(kinds), names(jumps.concat(movements, pressed)));
 
   // The wiring as drawn, and the known load must read as what it is. Leaves the bench armed.
   operator.wired(p.load);
@@ -130,8 +145,10 @@ function run(p) {
     // What the oscilloscope sees of steps and movements.
     for (const step of progress(steps.concat(jumps), "Steps")) bench.transitions.step(step);
     for (const movement of progress(movements, "Movements")) bench.transitions.traverse(movement);
+    for (const change of progress(pressed, "Finger")) bench.transitions.press(change);
   }
   bench.disarm();
+  if (p.finger) bench.lift();
   const results = bench.transitions.conclude();
   report.figure("Computed from the encoding: largest step from train to train over the R-P plane",
     plot.transitions(results.transitions));

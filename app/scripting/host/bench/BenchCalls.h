@@ -50,6 +50,8 @@ struct Sliding {
 /// Puts a surface under the finger, or asks the operator to do it (question surface-MATERIAL). Errors: InvalidArgument
 /// for an unknown surface; NotFound without an answer; Stopped.
 [[nodiscard]] Result<void> slide(ScriptSession& session, const Sliding& sliding);
+/// How a finger slides to feel about this R and P, 0 to 1 each: smooth or rough, lightly or firmly.
+[[nodiscard]] Sliding slidingFor(double roughness, double pressure);
 
 // Oscilloscope records of the next trains.
 

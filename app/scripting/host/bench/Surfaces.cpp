@@ -18,6 +18,10 @@ Result<void> slide(ScriptSession& session, const Sliding& sliding) {
                                      sliding.speed_mm_s, sliding.force_n));
 }
 
+Sliding slidingFor(double roughness, double pressure) {
+    return {.material = roughness < 0.5 ? "glass" : "P60", .force_n = pressure < 0.5 ? 0.15 : 6};
+}
+
 namespace {
 
 /// Returns a slide with the options speed_mm_s and force_n; `usualForce_n` if the function has no default force.
@@ -55,6 +59,20 @@ Result<Json> settledState(Bench& bench, double tolerance, double limit_s) {
     return Json{{"settled", *settled}, {"roughness", now.roughness}, {"pressure", now.pressure}};
 }
 
+/// Of a board that encodes the bench knows the command by its trains alone: waits for one.
+Result<void> hearBoard(Bench& bench) {
+    constexpr Seconds kStep{0.05};
+    const auto before = bench.telemetry();
+    const bool sends = before.state == InterlockState::Armed || before.state == InterlockState::Delivering;
+    if (!before.boardDrives || !sends) return {};
+    const Seconds longest = 2 * bench.profile().encoding.intervalMax;
+    for (Seconds passed{0}; passed < longest; passed += kStep) {
+        if (bench.telemetry().trainsDelivered != before.trainsDelivered) return {};
+        if (auto waited = bench.wait(kStep); !waited) return waited;
+    }
+    return {};
+}
+
 Result<Json> present(ScriptSession& session, const Arguments& arguments) {
     const double roughness = arguments.number("condition.roughness"), pressure = arguments.number("condition.pressure");
     const auto tolerance = arguments.number("options.tolerance");
@@ -65,12 +83,15 @@ Result<Json> present(ScriptSession& session, const Arguments& arguments) {
         return settledState(bench, tolerance, limit);
     }
 
-    const auto material = arguments.has("options.material") ? arguments.text("options.material")
-                                                            : std::string(roughness < 0.5 ? "glass" : "P60");
-    const auto sliding = slidingOver(material, arguments, pressure < 0.5 ? 0.15 : 6);
+    const auto usual = slidingFor(roughness, pressure);
+    const auto material = arguments.has("options.material") ? arguments.text("options.material") : usual.material;
+    const auto sliding = slidingOver(material, arguments, usual.force_n);
     if (auto slid = slide(session, sliding); !slid) return failure(slid);
     if (auto driven = bench.drive(DriveSource::Sensor); !driven) return failure(driven);
-    return settledState(bench, tolerance, limit);
+    auto state = settledState(bench, tolerance, limit);
+    if (!state) return state;
+    if (auto heard = hearBoard(bench); !heard) return failure(heard);
+    return state;
 }
 
 Result<Json> lift(ScriptSession& session, const Arguments&) {

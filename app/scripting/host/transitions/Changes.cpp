@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/scripting/host/bench/BenchCalls.h"
 #include "app/scripting/host/transitions/TrainRecording.h"
 #include "core/base/Statistics.h"
 #include "core/encoding/StepResponse.h"
@@ -158,6 +159,51 @@ Result<CapturedChange> captureMovement(ScriptSession& session, const Place& from
     const auto finished = recording.watch(2 * bench.profile().encoding.intervalMax, [] { return false; });
     if (!finished) return failure(finished);
     CapturedChange change{.kind = ChangeKind::Movement, .seconds = seconds};
+    for (std::size_t k = 0; k < seen.size(); ++k) change.trains.push_back(trainOf(seen, k, begin_s));
+    return change;
+}
+
+namespace {
+
+/// Watches until the newest of the trains from `begin` on differ from each other by less than is felt.
+Result<void> watchUntilSteady(TrainRecording& recording, std::size_t begin) {
+    constexpr std::size_t kAlike = 4;
+    constexpr Seconds kLongest{60};
+    const auto steady = [&, &seen = recording.seen()] {
+        if (seen.size() < begin + kAlike) return false;
+        const auto isLikeBefore = [&](std::size_t k) {
+            const auto train = trainOf(seen, k, 0);
+            return train.amplitude_jnd < 1 && train.interval_jnd < 1;
+        };
+        return isLikeBefore(seen.size() - 1) && isLikeBefore(seen.size() - 2);
+    };
+    const auto seen = recording.watch(kLongest, steady);
+    if (!seen) return failure(seen);
+    if (*seen) return {};
+    return fail(ErrorCode::Timeout, "bench.transitions.press: the trains did not become steady within {} s",
+                kLongest.count());
+}
+
+}  // namespace
+
+Result<CapturedChange> capturePress(ScriptSession& session, const Place& from, const Place& to) {
+    Bench& bench = session.bench();
+    const Encoder encoder(bench.profile().encoding);
+    const auto least = encoder.encode(0, 0), most = encoder.encode(1, 1);
+    if (!least) return failure(least);
+    if (!most) return failure(most);
+    if (auto driven = bench.drive(DriveSource::Sensor); !driven) return failure(driven);
+    if (auto slid = bench::slide(session, bench::slidingFor(from.roughness, from.pressure)); !slid)
+        return failure(slid);
+    TrainRecording recording(bench, trainSettings(bench, rateFor(bench), *least, *most));
+    if (auto asked = recording.begin(); !asked) return failure(asked);
+    auto& seen = recording.seen();
+    if (auto steady = watchUntilSteady(recording, 0); !steady) return failure(steady);
+    seen.erase(seen.begin(), seen.end() - 2);
+    const double begin_s = toSeconds(session.now());
+    if (auto slid = bench::slide(session, bench::slidingFor(to.roughness, to.pressure)); !slid) return failure(slid);
+    if (auto steady = watchUntilSteady(recording, seen.size()); !steady) return failure(steady);
+    CapturedChange change{.kind = ChangeKind::Movement};
     for (std::size_t k = 0; k < seen.size(); ++k) change.trains.push_back(trainOf(seen, k, begin_s));
     return change;
 }

@@ -21,5 +21,9 @@ struct Place {
 /// Moves to `to` in `seconds` and back, while the oscilloscope captures every train.
 [[nodiscard]] Result<CapturedChange> captureMovement(ScriptSession& session, const Place& from, const Place& to,
                                                      double seconds);
+/// Has the finger slide as for `from`, then as for `to` (bench::slidingFor()), and captures every train that it drives
+/// until they are steady. Errors: Unsupported without a fingertip; Timeout if they do not become steady; as
+/// bench::slide() and Bench::drive(); a stop.
+[[nodiscard]] Result<CapturedChange> capturePress(ScriptSession& session, const Place& from, const Place& to);
 
 }  // namespace tacto::host::transitions

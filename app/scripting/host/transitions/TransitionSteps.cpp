@@ -191,15 +191,26 @@ Result<Json> step(ScriptSession& session, const Arguments& arguments) {
     return Json();
 }
 
-Result<Json> traverse(ScriptSession& session, const Arguments& arguments) {
-    const auto begun = runOf(session, arguments);
-    if (!begun) return failure(begun);
-    TransitionRun& run = **begun;
-    auto change = captureMovement(session, placeFrom(arguments, "from"), placeFrom(arguments, "to"), run.traverse_s);
+Result<Json> addMovement(const Arguments& arguments, TransitionRun& run, Result<CapturedChange> change) {
     if (!change) return failure(change);
     change->name = arguments.text("change.name");
     run.found.movements.push_back(std::move(*change));
     return Json();
+}
+
+Result<Json> traverse(ScriptSession& session, const Arguments& arguments) {
+    const auto run = runOf(session, arguments);
+    if (!run) return failure(run);
+    return addMovement(
+        arguments, **run,
+        captureMovement(session, placeFrom(arguments, "from"), placeFrom(arguments, "to"), (*run)->traverse_s));
+}
+
+Result<Json> press(ScriptSession& session, const Arguments& arguments) {
+    const auto run = runOf(session, arguments);
+    if (!run) return failure(run);
+    return addMovement(arguments, **run,
+                       capturePress(session, placeFrom(arguments, "from"), placeFrom(arguments, "to")));
 }
 
 /// The captures decide; a design that steps too far elsewhere in the plane makes the verdict indeterminate.
@@ -284,12 +295,23 @@ std::vector<HostFunction> transitionFunctions() {
          .needs = Role::Oscilloscope,
          .call = host::transitions::step},
         {.name = "traverse",
-         .parameters = std::move(movement),
+         .parameters = movement,
          .text =
              "Moves through the plane at an even pace and back, and watches every train, each in a record of its own.",
          .errors = "Throws when the run is stopped.",
          .needs = Role::Oscilloscope,
          .call = host::transitions::traverse},
+        {.name = "press",
+         .parameters = std::move(movement),
+         .text = "Has the finger, which drives, slide as in one condition and then as in another, and watches every "
+                 "train, each in a record of its own, until they are steady. Where the fingertip's board encodes, they "
+                 "are the board's. On a rig that cannot present surfaces the operator is asked to (question "
+                 "surface-MATERIAL).",
+         .errors = "Throws when the trains do not become steady within 60 s; without a fingertip, or an answer; when "
+                   "its board encodes by another profile; or when the run is stopped.",
+         .asks = {"surface-*"},
+         .needs = Role::Oscilloscope,
+         .call = host::transitions::press},
         {.name = "conclude",
          .text =
              "Judges the changes on the trains as captured, name by name: the largest step from train to train with "
