@@ -21,9 +21,15 @@ function(version_in name header pattern)
 endfunction()
 version_in(QCustomPlot qcustomplot.h "define QCUSTOMPLOT_VERSION_STR \"([0-9.]+)\"")
 version_in(QScintilla Qsci/qsciglobal.h "define QSCINTILLA_VERSION_STR +\"([0-9.]+)\"")
-# EDFlib tells it in the name of its file (libedf.so.1.23), and zxcvbn nowhere.
-file(REAL_PATH ${TACTOSCOPE_EDF} edf)
-string(REGEX REPLACE "^.*\\.so\\.|^.*/" "" edf "${edf}")
+# EDFlib tells it when it runs (Debian's file of 1.27 is called libedf.so.1.23), and zxcvbn nowhere.
+try_run(edf_runs edf_compiles
+    SOURCE_FROM_CONTENT edf_version.cpp "#include <edflib.h>
+#include <cstdio>
+int main() { std::printf(\"%d.%02d\", edflib_version() / 100, edflib_version() % 100); }"
+    LINK_LIBRARIES ${TACTOSCOPE_EDF} RUN_OUTPUT_VARIABLE edf)
+if(NOT edf MATCHES "^[0-9]+[.][0-9]+$")
+    message(FATAL_ERROR "EDFlib tells no version: '${edf}'")
+endif()
 list(APPEND version_libraries "EDFlib=${edf}" "zxcvbn=unversioned")
 # Asked of git at each build; only this small file and the programs' links follow a commit.
 set(version_file ${CMAKE_BINARY_DIR}/core/base/ProgramVersion.cpp)

@@ -40,14 +40,14 @@ protected:
                 frame.resize(size);
                 for (int page = 0; page < (pages != nullptr ? pages->count() : 1); ++page) {
                     if (pages != nullptr) pages->setCurrentIndex(page);
-                    static_cast<void>(comesTrue([&] { return faultsOf(frame).empty(); }, 2000));
                     const auto of = pages != nullptr ? pages->tabText(page).remove('&').section(' ', 0, 0) : QString();
                     const auto at = QString("%1-%2-%3-%4")
                                         .arg(name, of.toLower(), theme == gui::Theme::Dark ? "dark" : "light")
                                         .arg(percent);
+                    EXPECT_IN_TIME(comesTrue([&] { return faultsOf(frame).empty(); }))
+                        << faultsOf(frame) << ", " << at.toStdString();
                     shot(frame, at);
                     if (pages != nullptr) shot(*pages, at + "-whole");  // a scrolled page shows only a part
-                    EXPECT_EQ(faultsOf(frame), "") << at.toStdString();
                     EXPECT_LE(frame.width(), size.width()) << at.toStdString();
                     EXPECT_LE(frame.height(), size.height()) << at.toStdString();
                 }

@@ -14,6 +14,7 @@
 #include "app/gui/live/TactilePlane.h"
 #include "app/gui/runner/CaptureStrip.h"
 #include "app/gui/runner/SignPage.h"
+#include "app/gui/runner/SimulatedBenchDialog.h"
 #include "app/gui/runner/StepButton.h"
 #include "app/gui/runner/TrialPlane.h"
 #include "app/gui/scope/ScopeWorkspace.h"
@@ -22,7 +23,6 @@
 #include "app/gui/theme/TabbedPage.h"
 #include "app/gui/theme/Theme.h"
 #include "app/gui/window/DayDialog.h"
-#include "app/gui/runner/SimulatedBenchDialog.h"
 #include "tests/gui/Looks.h"
 #include "tests/gui/calibrate/CalibrationLab.h"
 #include "tests/gui/window/WindowFixture.h"
@@ -37,11 +37,11 @@ protected:
             gui::applyTheme(theme);
             for (const auto size : sizesIn(theme, {QSize(1280, 720), QSize(1440, 900), QSize(1920, 1080)})) {
                 window.resize(size);
-                static_cast<void>(comesTrue([&] { return faultsOf(window).empty(); }, 2'000));
                 const auto file =
                     QString("%1-%2-%3").arg(name, theme == gui::Theme::Dark ? "dark" : "light").arg(size.width());
+                EXPECT_IN_TIME(comesTrue([&] { return faultsOf(window).empty(); }))
+                    << faultsOf(window) << ", " << file.toStdString();
                 shot(window, file);
-                EXPECT_EQ(faultsOf(window), "") << file.toStdString();
             }
         }
     }
@@ -128,8 +128,7 @@ TEST_F(ResultsInTheWindow, InLargeTextASafetyCheckAndItsReportAreReadWhole) {
     ASSERT_IN_TIME(comesTrue(reported, 60'000));
     const auto isWhole = [this](const char* name) {
         window.resize(1280, 720);
-        static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 3000));
-        EXPECT_EQ(faultsOf(window), "") << name;
+        EXPECT_IN_TIME(comesTrue([this] { return faultsOf(window).empty(); })) << faultsOf(window) << ", " << name;
         shot(window, QString("large-%1").arg(name));
     };
     gui::applyTextSize(200);
@@ -158,7 +157,7 @@ TEST_F(ResultsInTheWindow, ThePlaneOfTrialsLooksRight) {
     const auto* plane = find<gui::TrialPlane>(window, "Trials");
     const auto* train = find<gui::CaptureStrip>(window, "Last capture");
     ASSERT_TRUE(plane != nullptr && train != nullptr);
-    EXPECT_TRUE(texts(*plane).contains("Trials in the plane, 100"));
+    EXPECT_IN_TIME(comesTrue([&] { return texts(*plane).contains("Trials in the plane, 100"); }));
     for (const auto* axis : {plane->xAxis, plane->yAxis, train->xAxis, train->yAxis, train->yAxis2})
         EXPECT_TRUE(axis->label().at(0).isUpper()) << axis->label().toStdString();
     click(*find<QToolButton>(window, "Copy picture"));
@@ -273,8 +272,7 @@ TEST_F(ResultsInTheWindow, InLargeTextTheDialogsOfTheBenchFitASmallScreen) {
     letLive(100);
     // tests/e2e tests where the dialogs stand on such a screen.
     const auto fits = [](QWidget& dialog) {
-        static_cast<void>(comesTrue([&] { return dialog.isVisible() && faultsOf(dialog).empty(); }, 3000));
-        EXPECT_EQ(faultsOf(dialog), "");
+        EXPECT_IN_TIME(comesTrue([&] { return dialog.isVisible() && faultsOf(dialog).empty(); })) << faultsOf(dialog);
         EXPECT_LE(dialog.height(), 720);
         EXPECT_LE(dialog.width(), 1280);
         dialog.close();

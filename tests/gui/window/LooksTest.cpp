@@ -63,13 +63,13 @@ TEST_F(Window, LooksRightWithTextAtTwiceTheSize) {
             for (int page = 0; page < 8; ++page) {  // page 7 is the oscilloscope
                 visit(page % 7);
                 window.findChild<gui::TabbedPage*>("livePage")->setCurrentIndex(page / 7);
-                static_cast<void>(comesTrue([this] { return faultsOf(window).empty(); }, 1500));
                 const auto name = QString("window-200-%1-%2-%3")
                                       .arg(theme == gui::Theme::Dark ? "dark" : "light")
                                       .arg(size.width())
                                       .arg(page);
+                EXPECT_IN_TIME(comesTrue([this] { return faultsOf(window).empty(); }))
+                    << faultsOf(window) << ", " << name.toStdString();
                 shot(window, name);
-                EXPECT_EQ(faultsOf(window), "") << name.toStdString();
             }
             EXPECT_LE(window.width(), size.width());
             EXPECT_LE(window.height(), size.height());
@@ -135,9 +135,8 @@ TEST_F(DocksOfTheWindow, TheOscilloscopeLooksRightWithWhatItReads) {
             window.resize(size);
             letLive(200);
             // The docks share their column anew after each change of content, over several turns of the event loop.
-            static_cast<void>(comesTrue([&] { return faultsOf(window).empty(); }));
+            EXPECT_IN_TIME(comesTrue([&] { return faultsOf(window).empty(); })) << faultsOf(window);
             shot(window, QString("scope-%1-%2").arg(theme == gui::Theme::Dark ? "dark" : "light").arg(size.width()));
-            EXPECT_EQ(faultsOf(window), "");
         }
     }
     gui::applyTheme(gui::Theme::Light);
@@ -167,12 +166,12 @@ TEST_F(DocksOfTheWindow, TheOscilloscopesPanelsLookRight) {
             letLive(100);
             for (const auto& panels : all) {
                 for (const auto* panel : panels) set(panel, true);
-                static_cast<void>(comesTrue([&] { return faultsOf(window).empty(); }, 3000));
                 const auto name = QString("scope-%1-%2-%3")
                                       .arg(theme == gui::Theme::Dark ? "dark" : "light", panels.front())
                                       .arg(size.width());
+                EXPECT_IN_TIME(comesTrue([&] { return faultsOf(window).empty(); }))
+                    << faultsOf(window) << ", " << name.toStdString();
                 shot(window, panels.size() > 1 ? name + "-both" : name);
-                EXPECT_EQ(faultsOf(window), "") << name.toStdString();
                 for (const auto* panel : panels) set(panel, false);
             }
         }
