@@ -100,8 +100,6 @@ struct Coding {
     std::uint8_t width = 0;
 };
 
-std::uint64_t unfolded(std::uint64_t word) noexcept { return word >> 1U ^ (0 - (word & 1U)); }
-
 /// Replaces integers by differences. The order is the one with the shorter differences in the first few.
 Coding takeDifferences(std::span<std::uint64_t> words) noexcept {
     Coding coding;
@@ -129,13 +127,70 @@ Coding takeDifferences(std::span<std::uint64_t> words) noexcept {
     return coding;
 }
 
-void putTogether(const Coding& coding, std::span<std::uint64_t> words) noexcept {
-    auto before = coding.start;
-    for (auto& word : words) {
-        word = before + unfolded(word);
-        if (coding.order == 1) before = word;
+/// For each significance, the bytes of integers.
+using Planes = std::array<const std::byte*, kWord>;
+constexpr std::size_t kAtOnce = 512;  // so few integers stay in the processor's cache
+
+/// Puts the bytes of at most kAtOnce integers together, by halves: such loops become vector instructions.
+template <class Word>
+void join(const std::byte* const* planes, std::size_t count, Word* to) noexcept {
+    if constexpr (sizeof(Word) == 1) {
+        std::memcpy(to, *planes, count);
+    } else {
+        using Half = std::conditional_t<sizeof(Word) == 8, std::uint32_t,
+                                        std::conditional_t<sizeof(Word) == 4, std::uint16_t, std::uint8_t>>;
+        std::array<Half, kAtOnce> low, high;
+        join(planes, count, low.data());
+        join(planes + sizeof(Half), count, high.data());
+        for (std::size_t i = 0; i < count; ++i)
+            to[i] = static_cast<Word>(low[i] | static_cast<Word>(high[i]) << 8 * sizeof(Half));
     }
 }
+
+/// Reads the integers of one column, at most kAtOnce at a time.
+class IntegersIn {
+public:
+    /// `next` goes on to the planes of the next column.
+    IntegersIn(const Coding& coding, Planes& next, std::size_t samples) noexcept
+        : coding_(coding), before_(coding.start) {
+        static constexpr std::array<std::byte, kAtOnce> kZeros{};
+        planes_.fill(kZeros.data());
+        for (std::size_t byte = 0; byte < coding.width; ++byte) next[byte] = (planes_[byte] = next[byte]) + samples;
+    }
+    void read(std::span<std::uint64_t> to) noexcept {
+        if (coding_.width > 4)
+            readAs<std::uint64_t>(to);
+        else if (coding_.width > 2)
+            readAs<std::uint32_t>(to);
+        else if (coding_.width > 0)
+            readAs<std::uint16_t>(to);
+        else
+            std::ranges::fill(to, coding_.start);
+    }
+
+private:
+    template <class Word>
+    void readAs(std::span<std::uint64_t> to) noexcept {
+        std::array<Word, kAtOnce> words;
+        join(planes_.data(), to.size(), words.data());
+        for (std::size_t byte = 0; byte < coding_.width; ++byte) planes_[byte] += to.size();
+        const auto difference = [&](std::size_t i) {
+            const auto unfolded = static_cast<Word>(words[i] >> 1U ^ (0 - (words[i] & 1U)));
+            return static_cast<std::uint64_t>(static_cast<std::make_signed_t<Word>>(unfolded));
+        };
+        const auto start = coding_.start;
+        auto before = before_;  // not of the object, where every sum would go through memory
+        if (coding_.order == 0)
+            for (std::size_t i = 0; i < to.size(); ++i) to[i] = start + difference(i);
+        else
+            for (std::size_t i = 0; i < to.size(); ++i) to[i] = before += difference(i);
+        before_ = before;
+    }
+
+    Coding coding_;
+    std::uint64_t before_;
+    Planes planes_;
+};
 
 struct ColumnHead {
     Grid grid;
@@ -168,10 +223,6 @@ Byte* eachPlane(std::span<const ColumnHead> heads, Coding ColumnHead::*part, Byt
 
 void scatter(std::span<const std::uint64_t> words, std::size_t byte, std::byte* to) noexcept {
     for (std::size_t i = 0; i < words.size(); ++i) to[i] = static_cast<std::byte>(words[i] >> 8 * byte);
-}
-
-void gather(const std::byte* from, std::size_t byte, std::span<std::uint64_t> words) noexcept {
-    for (std::size_t i = 0; i < words.size(); ++i) words[i] |= static_cast<std::uint64_t>(from[i]) << 8 * byte;
 }
 
 ColumnHead readHead(const std::byte* from) noexcept {
@@ -331,31 +382,35 @@ Result<void> unpackColumns(std::span<const std::byte> packed, std::uint64_t samp
         }
     }
     if (expected != size) return wrong();
-    thread_local Integers numbers, rests;
-    numbers.assign(all * samples, 0);
-    rests.assign(all * samples, 0);
     const auto* from = content.data() + all * kHeadBytes;
-    from = eachPlane(heads, &ColumnHead::numbers, from, [&](std::size_t c, std::size_t byte, const std::byte* plane) {
-        gather(plane, byte, std::span(numbers).subspan(c * samples, samples));
-        return plane + samples;
-    });
-    eachPlane(heads, &ColumnHead::rests, from, [&](std::size_t c, std::size_t byte, const std::byte* plane) {
-        gather(plane, byte, std::span(rests).subspan(c * samples, samples));
-        return plane + samples;
-    });
+    const auto planesOf = [&](Coding ColumnHead::*part) {
+        Planes first{};
+        from = eachPlane(std::span<const ColumnHead>(heads), part, from,
+                         [&](std::size_t, std::size_t byte, const std::byte* plane) {
+                             if (first[byte] == nullptr) first[byte] = plane;
+                             return plane + samples;
+                         });
+        return first;
+    };
+    auto nextNumbers = planesOf(&ColumnHead::numbers), nextRests = planesOf(&ColumnHead::rests);
     into.t_s.resize(samples);
     into.values.resize(columns * samples);
+    std::array<std::uint64_t, kAtOnce> number, rest;
     for (std::size_t c = 0; c < all; ++c) {
-        const auto numbersOf = std::span(numbers).subspan(c * samples, samples);
-        const auto restsOf = std::span(rests).subspan(c * samples, samples);
-        putTogether(heads[c].numbers, numbersOf);
-        putTogether(heads[c].rests, restsOf);
         auto* to = c < stamps ? into.t_s.data() : into.values.data() + (c - stamps);
         const std::size_t apart = c < stamps ? 1 : columns;
         const auto& grid = heads[c].grid;
-        for (std::size_t i = 0; i < samples; ++i) {
-            const double near = grid.base + static_cast<double>(static_cast<std::int64_t>(numbersOf[i])) * grid.step;
-            to[i * apart] = std::bit_cast<double>(std::bit_cast<std::uint64_t>(near) + restsOf[i]);
+        IntegersIn numbers(heads[c].numbers, nextNumbers, samples), rests(heads[c].rests, nextRests, samples);
+        for (std::size_t left = samples; left > 0;) {
+            const auto some = std::min(left, number.size());
+            numbers.read(std::span(number).first(some));
+            rests.read(std::span(rest).first(some));
+            for (std::size_t i = 0; i < some; ++i) {
+                const double near = grid.base + static_cast<double>(static_cast<std::int64_t>(number[i])) * grid.step;
+                to[i * apart] = std::bit_cast<double>(std::bit_cast<std::uint64_t>(near) + rest[i]);
+            }
+            to += some * apart;
+            left -= some;
         }
     }
     return {};
