@@ -4,7 +4,7 @@
 #include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sodium.h>
+#include <openssl/evp.h>
 
 #include "core/base/JsonText.h"
 #include "core/base/Words.h"
@@ -40,23 +40,24 @@ bool has(const ExportSource& source, ExportContent content) {
     return false;
 }
 
-/// Reads the file piece by piece.
+/// Reads the file piece by piece. OpenSSL's SHA-256 uses the processor's own, and libsodium's does not.
 Result<ExportedFile> hashedFile(const fs::path& path, const fs::path& relative, const ExportSource& source) {
     std::ifstream in(path, std::ios::binary);
-    crypto_hash_sha256_state state;
-    crypto_hash_sha256_init(&state);
+    const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> hash(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+    bool hashed = EVP_DigestInit_ex(hash.get(), EVP_sha256(), nullptr) == 1;
     std::vector<char> piece(std::size_t{1} << 20);
     ExportedFile file{.path = relative.string(), .bytes = 0, .sha256 = {}};
     while (in) {
         in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
         const auto got = static_cast<std::size_t>(in.gcount());
-        crypto_hash_sha256_update(&state, reinterpret_cast<const unsigned char*>(piece.data()), got);
+        hashed = hashed && EVP_DigestUpdate(hash.get(), piece.data(), got) == 1;
         file.bytes += got;
         if (auto on = source.goOn(); !on) return failure(on);
     }
     if (!in.eof()) return fail(ErrorCode::Io, "{} could not be read back", path.string());
     Digest digest;
-    crypto_hash_sha256_final(&state, digest.data());
+    if (!hashed || EVP_DigestFinal_ex(hash.get(), digest.data(), nullptr) != 1)
+        return fail(ErrorCode::Unsupported, "this computer's OpenSSL has no SHA-256");
     file.sha256 = hexText(digest);
     return file;
 }

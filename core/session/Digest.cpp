@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <iterator>
+#include <libdeflate.h>
 #include <sodium.h>
 #include <string>
-#include <zlib.h>
 
 namespace tacto {
 
@@ -45,12 +45,12 @@ Digest bulkDigest(std::span<const std::span<const std::byte>> parts) {
 }
 
 std::uint32_t crc32(std::span<const std::span<const std::byte>> parts) {
-    uLong crc = ::crc32(0, nullptr, 0);
+    std::uint32_t crc = 0;
     for (const auto part : parts) {
-        if (part.empty()) continue;  // for zlib a null pointer means "start from the beginning"
-        crc = ::crc32_z(crc, reinterpret_cast<const Bytef*>(part.data()), part.size());
+        if (part.empty()) continue;  // a null pointer means "start from the beginning"
+        crc = libdeflate_crc32(crc, part.data(), part.size());
     }
-    return static_cast<std::uint32_t>(crc);
+    return crc;
 }
 
 std::string hexText(const Digest& digest) {
