@@ -534,6 +534,20 @@ Result<void> ExportSource::forEachChunk(const ExportStream& stream,
     return read ? visited : read;
 }
 
+Result<void> ExportSource::forEachStamps(const ExportStream& stream,
+                                         const std::function<Result<void>(std::span<const double>)>& visit) const {
+    Result<void> visited;
+    std::uint64_t left = stream.samples;
+    auto read = state_->reader.forEachStamps(stream.id, [&](std::span<const double> t_s) {
+        t_s = t_s.first(std::min<std::uint64_t>(left, t_s.size()));
+        visited = visit(t_s);
+        if (visited) visited = state_->goOn();
+        left -= t_s.size();
+        return visited.has_value() && left > 0;
+    });
+    return read ? visited : read;
+}
+
 Result<std::optional<Capture>> ExportSource::capture(const ExportCapture& wanted) const {
     if (auto on = state_->goOn(1); !on) return failure(on);
     auto read = state_->reader.capture(wanted.seq);

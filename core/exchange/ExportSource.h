@@ -175,6 +175,9 @@ public:
     /// Ends with the first error of `visit`, or Stopped.
     [[nodiscard]] Result<void> forEachChunk(const ExportStream& stream,
                                             const std::function<Result<void>(const SampleBlock&)>& visit) const;
+    /// The same for the stamps alone, which takes less.
+    [[nodiscard]] Result<void> forEachStamps(const ExportStream& stream,
+                                             const std::function<Result<void>(std::span<const double>)>& visit) const;
     /// Nothing if damage made it, or what is stated of it, unreadable. Errors: Stopped.
     [[nodiscard]] Result<std::optional<Capture>> capture(const ExportCapture& capture) const;
     /// The rows of one of this session's tables, in order.

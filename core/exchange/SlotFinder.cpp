@@ -7,21 +7,21 @@ namespace tacto {
 
 std::optional<SlotFinder::Place> SlotFinder::next(double t_s) {
     const double at = t_s * slotRate_hz_ + 0.5;
-    if (!(at >= 0 && at < 9e15) || (last_ && at < static_cast<double>(*last_))) {
+    if (!(at >= 0 && at < 9e15 && at >= static_cast<double>(last_))) {
         ++counts_.dropped;
         return std::nullopt;
     }
-    const auto slot = static_cast<std::uint64_t>(at);
-    const bool slipped = last_ && slot == *last_ + 2 && t_s - last_s_ < 1.5 / usualRate_hz_;
-    if (last_ && slot == *last_)
+    const auto slot = static_cast<std::int64_t>(at);
+    const bool slipped = slot == last_ + 2 && t_s - last_s_ < slip_s_;
+    if (slot == last_)
         ++counts_.dropped;  // the sample before
     else
-        counts_ = counts();
+        counts_.maxTimeError_s = std::max(counts_.maxTimeError_s, lastError_s_);
     if (slipped) ++counts_.repeated;
     lastError_s_ = std::abs(t_s - static_cast<double>(slot) / slotRate_hz_);
     last_ = slot;
     last_s_ = t_s;
-    return Place{slot, slipped};
+    return Place{static_cast<std::uint64_t>(slot), slipped};
 }
 
 GridCounts SlotFinder::counts() const {

@@ -4,6 +4,7 @@
 // Thread-safety: one owner.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -20,7 +21,7 @@ struct GridCounts {
 class SlotFinder {
 public:
     /// Slot k is at k / slotRate_hz; `usualRate_hz` tells a gap from a slip.
-    SlotFinder(double slotRate_hz, double usualRate_hz) : slotRate_hz_(slotRate_hz), usualRate_hz_(usualRate_hz) {}
+    SlotFinder(double slotRate_hz, double usualRate_hz) : slotRate_hz_(slotRate_hz), slip_s_(1.5 / usualRate_hz) {}
 
     struct Place {
         std::uint64_t slot;
@@ -31,9 +32,10 @@ public:
     [[nodiscard]] GridCounts counts() const;
 
 private:
-    double slotRate_hz_, usualRate_hz_;
-    std::optional<std::uint64_t> last_;
-    double last_s_ = 0, lastError_s_ = 0;  // of the last sample, which the next may replace
+    double slotRate_hz_, slip_s_;
+    // Of the last sample, which the next may replace.
+    std::int64_t last_ = -1;  // -1: there is none
+    double last_s_ = -INFINITY, lastError_s_ = 0;
     GridCounts counts_;
 };
 

@@ -122,6 +122,12 @@ Result<void> unpackChunk(const ChunkHead& head, std::size_t columns, std::span<c
     return {};
 }
 
+void stampsOf(const ChunkHead& head, SampleBlock& into) {
+    into.clear();
+    into.t_s.resize(head.samples);
+    putLine(head, into);
+}
+
 namespace {
 
 /// Puts bytes of equal significance side by side: the high bytes of a converter's codes repeat, so deflate finds them.

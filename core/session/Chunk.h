@@ -57,6 +57,9 @@ struct ChunkHead {
 [[nodiscard]] Result<void> unpackChunk(const ChunkHead& head, std::size_t columns, std::span<const std::byte> stamps,
                                        std::span<const std::byte> data, SampleBlock& into);
 
+/// Puts the stamps of a chunk whose head has their line into `into`, and no values.
+void stampsOf(const ChunkHead& head, SampleBlock& into);
+
 // An oscilloscope record as the file stores it: a description in JSON, and the float32 samples of one channel after the
 // other, deflated if that saves space.
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/base/JsonText.h"
+#include "core/packing/PackedColumns.h"
 #include "core/session/Chunk.h"
 #include "core/session/Digest.h"
 #include "core/session/Schema.h"
@@ -193,12 +194,12 @@ struct SessionReader::State {
 
     [[nodiscard]] Result<void> forEachChunk(const SessionStreamInfo& info, const char* order,
                                             const std::function<bool(const ChunkHead&, const SampleBlock&)>& visit,
-                                            std::int64_t each = 1) const {
+                                            std::int64_t each = 1, const char* data = "c.data") const {
         if (damaged) return forEachReadableChunk(info, visit, each);
         auto rows = source.database().prepare(
-            fmt::format("SELECT e.seq, e.body, c.stamps, c.data FROM chunks c JOIN entries e ON e.seq = c.seq "
+            fmt::format("SELECT e.seq, e.body, c.stamps, {} FROM chunks c JOIN entries e ON e.seq = c.seq "
                         "WHERE c.stream=? AND c.idx % ?=0 ORDER BY c.idx {}",
-                        order));
+                        data, order));
         if (!rows) return failure(rows);
         rows->bind(1, std::int64_t{info.id});
         rows->bind(2, each);
@@ -209,6 +210,11 @@ struct SessionReader::State {
             if (!*more) return {};
             const auto chunk = chunkHead(rows->integer(0), rows->text(1));
             if (!chunk) return failure(chunk);
+            if (rows->isNull(3)) {
+                stampsOf(*chunk, block);
+                if (!visit(*chunk, block)) return {};
+                continue;
+            }
             auto unpacked =
                 unpack(rows->integer(0), *chunk, info.stream.columns.size(), rows->blob(2), rows->blob(3), block);
             if (!unpacked) return unpacked;
@@ -524,6 +530,19 @@ Result<void> SessionReader::forEachChunk(int stream, const std::function<bool(co
     const auto info = state_->stream(stream);
     if (!info) return failure(info);
     return state_->forEachChunk(*info, "ASC", [&](const ChunkHead&, const SampleBlock& block) { return visit(block); });
+}
+
+Result<void> SessionReader::forEachStamps(int stream, const std::function<bool(std::span<const double>)>& visit) const {
+    if (auto open = state_->unlocked("the samples"); !open) return failure(open);
+    const auto info = state_->stream(stream);
+    if (!info) return failure(info);
+    // A sealed description says nothing here.
+    static const auto data = fmt::format(
+        "CASE WHEN json_type(e.body, '$.t0_s') IS NOT NULL AND json_extract(e.body, '$.samples') <= {} THEN NULL "
+        "ELSE c.data END",
+        kMaxPackedNumbers);
+    return state_->forEachChunk(
+        *info, "ASC", [&](const ChunkHead&, const SampleBlock& block) { return visit(block.t_s); }, 1, data.c_str());
 }
 
 Result<StreamOutline> SessionReader::outline(int stream, std::uint64_t most) const {

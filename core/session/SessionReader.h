@@ -88,6 +88,9 @@ public:
     [[nodiscard]] Result<SampleBlock> samples(int stream) const;
     /// Reads chunk by chunk, for sessions larger than memory. `visit` returns false to stop.
     [[nodiscard]] Result<void> forEachChunk(int stream, const std::function<bool(const SampleBlock&)>& visit) const;
+    /// The stamps alone: values are read only where they are packed together.
+    [[nodiscard]] Result<void> forEachStamps(int stream,
+                                             const std::function<bool(std::span<const double>)>& visit) const;
     /// Returns all samples of a stream; or, if they have more than `most` values, those of one chunk in so many that
     /// they have about `most`, with a row of NaN between.
     [[nodiscard]] Result<StreamOutline> outline(int stream, std::uint64_t most) const;

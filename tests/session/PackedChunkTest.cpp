@@ -222,6 +222,14 @@ TEST_F(PackedSession, SaysWhatAnOlderProgramRecordedByTheSameCalls) {
     for (const int stream : {1, 2}) {
         EXPECT_TRUE(sameBits(newer->samples(stream)->values, older->samples(stream)->values));
         EXPECT_TRUE(sameBits(newer->samples(stream)->t_s, older->samples(stream)->t_s));
+        for (const auto* reader : {&*older, &*newer}) {
+            std::vector<double> stamps;
+            ASSERT_TRUE(reader->forEachStamps(stream, [&](std::span<const double> some) {
+                stamps.insert(stamps.end(), some.begin(), some.end());
+                return true;
+            }));
+            EXPECT_TRUE(sameBits(stamps, reader->samples(stream)->t_s));
+        }
     }
     EXPECT_NE(test::everythingIn(path_).find(kPackedAsSteps), std::string::npos) << "the test must pack";
 }

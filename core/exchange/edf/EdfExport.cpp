@@ -74,7 +74,7 @@ std::string annotationBytes(const Annotation& note) {
 /// Finds the stretches of more than a second in which a channel, or all of a stream, has no value.
 class AbsenceFinder {
 public:
-    AbsenceFinder(std::string_view stream, const std::vector<PlannedSignal>& signals, double slot_s)
+    AbsenceFinder(std::string_view stream, std::span<const PlannedSignal> signals, double slot_s)
         : stream_(stream), slot_s_(slot_s), since_s_(signals.size(), 0) {
         for (const auto& signal : signals) labels_.push_back(signal.label);
     }
@@ -252,18 +252,29 @@ private:
             const auto width = stream.channels.size();
             const double slot_s = 1 / planned->slotRate_hz(record_s_);
             SlotFinder slots(planned->slotRate_hz(record_s_), rateOf(stream));
-            AbsenceFinder absent(stream.name, planned->signals, slot_s);
+            // Of a stream without absent values one channel says everything, and its stamps are enough.
+            const bool absentSome =
+                std::ranges::any_of(stream.channels, [](const auto& c) { return c.absent + c.infinite > 0; });
+            const auto seen = absentSome ? width : 1;
+            AbsenceFinder absent(stream.name, std::span(planned->signals).first(seen), slot_s);
             double last_s = 0;
-            auto read = source_.forEachChunk(stream, [&](const SampleBlock& block) -> Result<void> {
-                for (std::size_t i = 0; i < block.samples(); ++i) {
-                    const auto place = slots.next(block.t_s[i]);
-                    if (!place) continue;
-                    last_s = std::max(last_s, block.t_s[i]);
-                    absent.feed(static_cast<double>(place->slot) * slot_s,
-                                std::span(block.values).subspan(i * width, width));
-                }
-                return {};
-            });
+            const auto see = [&](double t_s, std::span<const double> values) {
+                const auto place = slots.next(t_s);
+                if (!place) return;
+                last_s = std::max(last_s, t_s);
+                absent.feed(static_cast<double>(place->slot) * slot_s, values);
+            };
+            auto read = absentSome ? source_.forEachChunk(
+                                         stream,
+                                         [&](const SampleBlock& block) -> Result<void> {
+                                             for (std::size_t i = 0; i < block.samples(); ++i)
+                                                 see(block.t_s[i], std::span(block.values).subspan(i * width, width));
+                                             return {};
+                                         })
+                                   : source_.forEachStamps(stream, [&](std::span<const double> t_s) -> Result<void> {
+                                         for (const double t : t_s) see(t, std::span(&t, 1));
+                                         return {};
+                                     });
             if (!read) return failure(read);
             planned->counts = slots.counts();
             const auto samples = static_cast<double>(stream.samples);
@@ -389,17 +400,23 @@ private:
         return {};
     }
 
-    void putDigital(std::string& into, std::size_t sample, int value) const {
-        for (std::size_t b = 0; b < bytes_; ++b) into[sample * bytes_ + b] = static_cast<char>(value >> (8 * b));
+    void putDigital(std::string& into, std::size_t sample, std::span<const int> values) const {
+        auto* to = into.data() + sample * bytes_;
+        if (bdf_)
+            for (const int value : values) std::memcpy(std::exchange(to, to + 3), &value, 3);
+        else
+            for (const int value : values) std::memcpy(std::exchange(to, to + 2), &value, 2);
     }
 
     /// Writes a stream's part of every record.
     Result<void> writeStream(const PlannedStream& planned) const {
         const auto width = planned.signals.size();
         std::string absent(planned.perRecord * width * bytes_, '\0');
-        for (std::size_t c = 0; c < width; ++c)
-            for (std::size_t k = 0; k < planned.perRecord; ++k)
-                putDigital(absent, c * planned.perRecord + k, planned.signals[c].scale.digitalMin);
+        std::vector<int> digital(planned.perRecord);
+        for (std::size_t c = 0; c < width; ++c) {
+            std::ranges::fill(digital, planned.signals[c].scale.digitalMin);
+            putDigital(absent, c * planned.perRecord, digital);
+        }
         std::string piece = absent;
         std::uint64_t record = 0;
         const auto moveTo = [&](std::uint64_t wanted) -> Result<void> {
@@ -411,29 +428,51 @@ private:
             }
             return {};
         };
-        std::vector<double> before(width, kNaN);
         std::uint64_t first = 0;  // slot of the record
-        const auto put = [&](std::uint64_t slot, const double* values) -> Result<void> {
-            if (slot - first >= planned.perRecord) {
-                if (auto moved = moveTo(slot / planned.perRecord); !moved) return moved;
-                first = record * planned.perRecord;
+        // Puts samples that stand one after the other.
+        const auto put = [&](std::uint64_t slot, std::size_t samples, const double* values) -> Result<void> {
+            while (samples > 0) {
+                if (slot - first >= planned.perRecord) {
+                    if (auto moved = moveTo(slot / planned.perRecord); !moved) return moved;
+                    first = record * planned.perRecord;
+                }
+                const auto some = std::min<std::size_t>(samples, first + planned.perRecord - slot);
+                const auto to = std::span(digital).first(some);
+                for (std::size_t c = 0; c < width; ++c) {
+                    planned.signals[c].scale.digital(values + c, width, to);
+                    putDigital(piece, c * planned.perRecord + (slot - first), to);
+                }
+                slot += some;
+                samples -= some;
+                values += some * width;
             }
-            for (std::size_t c = 0; c < width; ++c)
-                putDigital(piece, c * planned.perRecord + (slot - first), planned.signals[c].scale.digital(values[c]));
             return {};
         };
         SlotFinder finder(planned.slotRate_hz(record_s_), rateOf(*planned.stream));
+        std::vector<double> before(width, kNaN);
         auto read = source_.forEachChunk(*planned.stream, [&](const SampleBlock& block) -> Result<void> {
+            const auto* values = block.values.data();
+            std::uint64_t begin = 0;  // slot of the first of the samples that have yet to be put
+            std::size_t from = 0, to = 0;
+            const auto putThem = [&] { return put(begin, to - from, values + from * width); };
             for (std::size_t i = 0; i < block.samples(); ++i) {
                 const auto place = finder.next(block.t_s[i]);
+                if (place && i == to && place->slot == begin + (to - from) && to > from) {
+                    ++to;
+                    continue;
+                }
                 if (!place) continue;
-                const double* values = block.values.data() + i * width;
-                if (place->slipped)
-                    if (auto done = put(place->slot - 1, before.data()); !done) return done;
-                if (auto done = put(place->slot, values); !done) return done;
-                std::copy(values, values + width, before.begin());
+                if (auto done = putThem(); !done) return done;
+                if (place->slipped) {
+                    const auto* earlier = to > from ? values + (to - 1) * width : before.data();
+                    if (auto done = put(place->slot - 1, 1, earlier); !done) return done;
+                }
+                begin = place->slot;
+                from = i;
+                to = i + 1;
             }
-            return {};
+            if (to > from) std::copy_n(values + (to - 1) * width, width, before.begin());
+            return putThem();
         });
         return read ? moveTo(records_) : read;
     }

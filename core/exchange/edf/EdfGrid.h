@@ -23,8 +23,8 @@ struct Scale {
     int digitalMin = 0, digitalMax = 0;    ///< the lowest means absent
     bool exact = false;                    ///< whole numbers with a step of 1
 
-    /// Returns the nearest digital value; digitalMin for what is not finite.
-    [[nodiscard]] int digital(double value) const noexcept;
+    /// Puts the nearest digital value of every `apart`-th value into `to`; digitalMin for what is not finite.
+    void digital(const double* values, std::size_t apart, std::span<int> to) const noexcept;
 
     double low = 0, high = 0;  ///< the physical limits as numbers
     double step = 1;           ///< between two values

@@ -1,5 +1,6 @@
 // XDF, EDF and BDF exports hold for pyxdf, pyEDFlib and edfio what the session holds, and open here as recordings.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <random>
+#include <span>
 
 #include "core/dsp/RoughnessAnalysis.h"
 #include "core/exchange/Export.h"
@@ -268,6 +270,12 @@ TEST(EdfGrid, ARecordHasWholeSamplesOfEveryRate) {
     EXPECT_LE(record_s, 60);
 }
 
+int digitalOf(const edf::Scale& scale, double value) {
+    int digital = 0;
+    scale.digital(&value, 1, std::span(&digital, 1));
+    return digital;
+}
+
 TEST(EdfGrid, AScaleKeepsWhatItIsGivenToHalfAStep) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> unit(-1, 1);
@@ -283,7 +291,7 @@ TEST(EdfGrid, AScaleKeepsWhatItIsGivenToHalfAStep) {
         const double low = std::stod(scale->physicalMin), high = std::stod(scale->physicalMax);
         const double step = (high - low) / (std::pow(2, bits) - 1);
         for (const double value : {least, most, 0.5 * (least + most)}) {
-            const int digital = scale->digital(value);
+            const int digital = digitalOf(*scale, value);
             EXPECT_GT(digital, -(1 << (bits - 1))) << "the lowest means absent";
             EXPECT_NEAR(low + step * (digital + (1 << (bits - 1))), value, 0.5000001 * step);
         }
@@ -291,8 +299,14 @@ TEST(EdfGrid, AScaleKeepsWhatItIsGivenToHalfAStep) {
     EXPECT_FALSE(edf::scaleFor(0.5, 1e9, false, 16)) << "no decimal of 7 characters";
     const auto counts = edf::scaleFor(-32767, 32767, true, 16);
     ASSERT_TRUE(counts && counts->exact);
-    for (const double value : {-32767.0, 0.0, 32767.0}) EXPECT_EQ(counts->digital(value), value);
-    EXPECT_EQ(counts->digital(NAN), -32768);
+    for (const double value : {-32767.0, 0.0, 32767.0}) EXPECT_EQ(digitalOf(*counts, value), value);
+    EXPECT_EQ(digitalOf(*counts, NAN), -32768);
+    const std::array<double, 7> mixed{1.4, NAN, -1.6, INFINITY, 9e9, 0.0, -9e9};
+    std::array<int, 4> every{};
+    counts->digital(mixed.data(), 2, every);
+    EXPECT_EQ(every, (std::array{1, -2, 32767, -32767})) << "every second; what is outside becomes a limit";
+    counts->digital(mixed.data() + 1, 2, std::span(every).first(3));
+    EXPECT_EQ(every, (std::array{-32768, -32768, 0, -32767}));
     EXPECT_FALSE(edf::scaleFor(-32768, 5, true, 16)->exact) << "the lowest means absent";
 }
 

@@ -161,9 +161,9 @@ void compare(const fs::path& session, const fs::path& folder, const std::optiona
     };
     constexpr Goal kGoals[] = {{"csv", "pandas", 1, true},
                                {"hdf5", "h5py", 1, true},
-                               {"edf", "pyEDFlib", 6, false},
-                               {"bdf", "pyEDFlib", 6, false},
-                               {"xdf", "the bare doubles", 40, false}};
+                               {"edf", "pyEDFlib", 3, false},
+                               {"bdf", "pyEDFlib", 3, false},
+                               {"xdf", "the bare doubles", 12, false}};
     for (const auto& goal : kGoals) {
         const bool bare = goal.format == std::string_view("xdf");
         const auto* format = exportFormat(goal.format);
