@@ -134,16 +134,15 @@ constexpr std::size_t kAtOnce = 512;  // so few integers stay in the processor's
 /// Puts the bytes of at most kAtOnce integers together, by halves: such loops become vector instructions.
 template <class Word>
 void join(const std::byte* const* planes, std::size_t count, Word* to) noexcept {
-    if constexpr (sizeof(Word) == 1) {
-        std::memcpy(to, *planes, count);
+    if constexpr (sizeof(Word) == 2) {
+        for (std::size_t i = 0; i < count; ++i)
+            to[i] = static_cast<Word>(static_cast<Word>(planes[0][i]) | static_cast<Word>(planes[1][i]) << 8);
     } else {
-        using Half = std::conditional_t<sizeof(Word) == 8, std::uint32_t,
-                                        std::conditional_t<sizeof(Word) == 4, std::uint16_t, std::uint8_t>>;
+        using Half = std::conditional_t<sizeof(Word) == 8, std::uint32_t, std::uint16_t>;
         std::array<Half, kAtOnce> low, high;
         join(planes, count, low.data());
         join(planes + sizeof(Half), count, high.data());
-        for (std::size_t i = 0; i < count; ++i)
-            to[i] = static_cast<Word>(low[i] | static_cast<Word>(high[i]) << 8 * sizeof(Half));
+        for (std::size_t i = 0; i < count; ++i) to[i] = low[i] | static_cast<Word>(high[i]) << 8 * sizeof(Half);
     }
 }
 
