@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 namespace tacto {
 
@@ -29,6 +30,11 @@ public:
     };
     /// Returns nothing for a sample that is dropped.
     [[nodiscard]] std::optional<Place> next(double t_s);
+    /// Takes the first samples that lie each in the slot after that of the sample before, and returns their number: as
+    /// next() of each, faster.
+    [[nodiscard]] std::size_t follow(std::span<const double> t_s);
+    /// Of the last sample that was not dropped.
+    [[nodiscard]] std::uint64_t lastSlot() const noexcept { return static_cast<std::uint64_t>(last_); }
     [[nodiscard]] GridCounts counts() const;
 
 private:

@@ -194,12 +194,12 @@ struct SessionReader::State {
 
     [[nodiscard]] Result<void> forEachChunk(const SessionStreamInfo& info, const char* order,
                                             const std::function<bool(const ChunkHead&, const SampleBlock&)>& visit,
-                                            std::int64_t each = 1, const char* data = "c.data") const {
+                                            std::int64_t each = 1) const {
         if (damaged) return forEachReadableChunk(info, visit, each);
         auto rows = source.database().prepare(
-            fmt::format("SELECT e.seq, e.body, c.stamps, {} FROM chunks c JOIN entries e ON e.seq = c.seq "
+            fmt::format("SELECT e.seq, e.body, c.stamps, c.data FROM chunks c JOIN entries e ON e.seq = c.seq "
                         "WHERE c.stream=? AND c.idx % ?=0 ORDER BY c.idx {}",
-                        data, order));
+                        order));
         if (!rows) return failure(rows);
         rows->bind(1, std::int64_t{info.id});
         rows->bind(2, each);
@@ -210,15 +210,42 @@ struct SessionReader::State {
             if (!*more) return {};
             const auto chunk = chunkHead(rows->integer(0), rows->text(1));
             if (!chunk) return failure(chunk);
-            if (rows->isNull(3)) {
-                stampsOf(*chunk, block);
-                if (!visit(*chunk, block)) return {};
-                continue;
-            }
             auto unpacked =
                 unpack(rows->integer(0), *chunk, info.stream.columns.size(), rows->blob(2), rows->blob(3), block);
             if (!unpacked) return unpacked;
             if (!visit(*chunk, block)) return {};
+        }
+    }
+
+    [[nodiscard]] Result<void> forEachStamps(const SessionStreamInfo& info,
+                                             const std::function<bool(std::span<const double>)>& visit) const {
+        if (damaged)
+            return forEachReadableChunk(
+                info, [&](const ChunkHead&, const SampleBlock& block) { return visit(block.t_s); }, 1);
+        auto rows = source.database().prepare(
+            "SELECT e.seq, e.body FROM chunks c JOIN entries e ON e.seq = c.seq WHERE c.stream=? ORDER BY c.idx");
+        if (!rows) return failure(rows);
+        auto rest = source.database().prepare("SELECT stamps, data FROM chunks WHERE seq=?");
+        if (!rest) return failure(rest);
+        rows->bind(1, std::int64_t{info.id});
+        SampleBlock block;
+        for (;;) {
+            auto more = rows->step();
+            if (!more) return failure(more);
+            if (!*more) return {};
+            const auto seq = rows->integer(0);
+            const auto chunk = chunkHead(seq, rows->text(1));
+            if (!chunk) return failure(chunk);
+            if (chunk->line && chunk->samples <= kMaxPackedNumbers) {
+                stampsOf(*chunk, block);
+            } else {
+                rest->reset();
+                rest->bind(1, seq);
+                if (auto there = rest->step(); !there) return failure(there);
+                auto unpacked = unpack(seq, *chunk, info.stream.columns.size(), rest->blob(0), rest->blob(1), block);
+                if (!unpacked) return unpacked;
+            }
+            if (!visit(block.t_s)) return {};
         }
     }
 
@@ -536,13 +563,7 @@ Result<void> SessionReader::forEachStamps(int stream, const std::function<bool(s
     if (auto open = state_->unlocked("the samples"); !open) return failure(open);
     const auto info = state_->stream(stream);
     if (!info) return failure(info);
-    // A sealed description says nothing here.
-    static const auto data = fmt::format(
-        "CASE WHEN json_type(e.body, '$.t0_s') IS NOT NULL AND json_extract(e.body, '$.samples') <= {} THEN NULL "
-        "ELSE c.data END",
-        kMaxPackedNumbers);
-    return state_->forEachChunk(
-        *info, "ASC", [&](const ChunkHead&, const SampleBlock& block) { return visit(block.t_s); }, 1, data.c_str());
+    return state_->forEachStamps(*info, visit);
 }
 
 Result<StreamOutline> SessionReader::outline(int stream, std::uint64_t most) const {

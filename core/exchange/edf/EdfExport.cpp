@@ -258,23 +258,27 @@ private:
             const auto seen = absentSome ? width : 1;
             AbsenceFinder absent(stream.name, std::span(planned->signals).first(seen), slot_s);
             double last_s = 0;
-            const auto see = [&](double t_s, std::span<const double> values) {
-                const auto place = slots.next(t_s);
-                if (!place) return;
+            const auto take = [&](double t_s, std::uint64_t slot, std::span<const double> values) {
                 last_s = std::max(last_s, t_s);
-                absent.feed(static_cast<double>(place->slot) * slot_s, values);
+                absent.feed(static_cast<double>(slot) * slot_s, values);
             };
-            auto read = absentSome ? source_.forEachChunk(
-                                         stream,
-                                         [&](const SampleBlock& block) -> Result<void> {
-                                             for (std::size_t i = 0; i < block.samples(); ++i)
-                                                 see(block.t_s[i], std::span(block.values).subspan(i * width, width));
-                                             return {};
-                                         })
-                                   : source_.forEachStamps(stream, [&](std::span<const double> t_s) -> Result<void> {
-                                         for (const double t : t_s) see(t, std::span(&t, 1));
-                                         return {};
-                                     });
+            const auto lookAtAll = [&](const SampleBlock& block) -> Result<void> {
+                for (std::size_t i = 0; i < block.samples(); ++i)
+                    if (const auto place = slots.next(block.t_s[i]))
+                        take(block.t_s[i], place->slot, std::span(block.values).subspan(i * width, width));
+                return {};
+            };
+            const auto lookAtStamps = [&](std::span<const double> t_s) -> Result<void> {
+                for (std::size_t i = 0; i < t_s.size();) {
+                    const auto more = slots.follow(t_s.subspan(i));
+                    const bool placed = more > 0 || slots.next(t_s[i]);
+                    i += std::max<std::size_t>(1, more);
+                    if (placed) take(t_s[i - 1], slots.lastSlot(), t_s.subspan(i - 1, 1));
+                }
+                return {};
+            };
+            auto read =
+                absentSome ? source_.forEachChunk(stream, lookAtAll) : source_.forEachStamps(stream, lookAtStamps);
             if (!read) return failure(read);
             planned->counts = slots.counts();
             const auto samples = static_cast<double>(stream.samples);
@@ -456,11 +460,9 @@ private:
             std::size_t from = 0, to = 0;
             const auto putThem = [&] { return put(begin, to - from, values + from * width); };
             for (std::size_t i = 0; i < block.samples(); ++i) {
+                if (to > from && i == to) i = to += finder.follow(std::span(block.t_s).subspan(i));
+                if (i == block.samples()) break;
                 const auto place = finder.next(block.t_s[i]);
-                if (place && i == to && place->slot == begin + (to - from) && to > from) {
-                    ++to;
-                    continue;
-                }
                 if (!place) continue;
                 if (auto done = putThem(); !done) return done;
                 if (place->slipped) {

@@ -12,6 +12,7 @@
 
 #include "core/dsp/RoughnessAnalysis.h"
 #include "core/exchange/Export.h"
+#include "core/exchange/SlotFinder.h"
 #include "core/exchange/edf/EdfGrid.h"
 #include "core/exchange/recordings/OpenRecording.h"
 #include "core/session/SessionWriter.h"
@@ -268,6 +269,50 @@ TEST(EdfGrid, ARecordHasWholeSamplesOfEveryRate) {
         worst = std::max(worst, std::abs(std::round(rate * record_s) / (rate * record_s) - 1));
     EXPECT_LT(worst, 1e-4);
     EXPECT_LE(record_s, 60);
+}
+
+TEST(SlotFinder, FollowsStampsAsItFindsTheSlotOfEach) {
+    std::mt19937_64 random(11);
+    std::uniform_real_distribution<double> unit(0, 1);
+    std::uint64_t followed = 0, dropped = 0, repeated = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        const double rate_hz = 50 + 4000 * unit(random), wrong = trial % 3 == 0 ? 1 : 1 + 0.004 * (unit(random) - 0.5);
+        const double jitter = trial % 2 == 0 ? 0 : 0.6 * unit(random);
+        std::vector<double> t_s;
+        double base_s = trial % 5 == 0 ? -0.01 : 0;
+        for (int i = 0; i < 1000; ++i) {
+            if (random() % 200 == 0) base_s += unit(random);
+            if (random() % 300 == 0) base_s -= 2 / rate_hz;
+            t_s.push_back(random() % 500 == 0 ? kNaN
+                                              : base_s + (i + jitter * (unit(random) - 0.5)) / (rate_hz * wrong));
+        }
+        SlotFinder each(rate_hz, rate_hz * wrong), fast(rate_hz, rate_hz * wrong);
+        for (std::size_t i = 0; i < t_s.size();) {
+            const auto more = fast.follow(std::span(t_s).subspan(i, std::min<std::size_t>(t_s.size() - i, 70)));
+            for (std::size_t k = 0; k < more; ++k) {
+                const auto before = each.lastSlot();
+                const auto place = each.next(t_s[i + k]);
+                ASSERT_TRUE(place && !place->slipped && place->slot == before + 1);
+            }
+            followed += more;
+            i += more;
+            if (i == t_s.size()) break;
+            const auto wanted = each.next(t_s[i]), got = fast.next(t_s[i]);
+            ++i;
+            ASSERT_EQ(wanted.has_value(), got.has_value());
+            if (wanted) ASSERT_TRUE(wanted->slot == got->slot && wanted->slipped == got->slipped);
+            ASSERT_EQ(each.lastSlot(), fast.lastSlot());
+        }
+        const auto wanted = each.counts(), got = fast.counts();
+        EXPECT_EQ(wanted.dropped, got.dropped);
+        EXPECT_EQ(wanted.repeated, got.repeated);
+        EXPECT_EQ(wanted.maxTimeError_s, got.maxTimeError_s);
+        dropped += got.dropped;
+        repeated += got.repeated;
+    }
+    EXPECT_GT(followed, 100'000U);
+    EXPECT_GT(dropped, 1000U);
+    EXPECT_GT(repeated, 1000U);
 }
 
 int digitalOf(const edf::Scale& scale, double value) {
