@@ -58,7 +58,9 @@ void ForceTrack::advance(std::size_t& cursor, double t_s) const noexcept {
 }
 
 double ForceTrack::Line::divisor(double t_s) const noexcept {
-    return std::max(slope * (t_s - from) + force, kSmallestDivisor_n);
+    // At the sample's own stamp the next sample says nothing, so that it makes no difference whether it is known.
+    const double since = t_s - from;
+    return std::max((since > kStampRounding_s ? slope * since : 0) + force, kSmallestDivisor_n);
 }
 
 ForceTrack::Line ForceTrack::lineAt(std::size_t& cursor, double t_s, double start_s) const noexcept {
@@ -127,7 +129,7 @@ ForceTrack::Reading ForceTrack::at(double t_s) noexcept {
     const double from = samples_.t(readCursor_);
     double force = samples_.values(readCursor_)[0];
     if (t_s < from) return {force, false, false};
-    if (hasNext(readCursor_)) {
+    if (hasNext(readCursor_) && t_s - from > kStampRounding_s) {
         const double until = samples_.t(readCursor_ + 1);
         if (until - from <= kLongestBridge_s) {
             force += (samples_.values(readCursor_ + 1)[0] - force) / (until - from) * (t_s - from);

@@ -148,7 +148,8 @@ double RoughnessChain::State::forceKnown_s() const noexcept {
     // Before the first sample, and in a long silence, frames do not wait for force without limit.
     const double spoken = std::max(force->newest_s(), start);
     if (horizon_s() > spoken + ForceTrack::kLongestBridge_s + kSkew_s) return kInfinity_s;
-    return force->newest_s();
+    // What is stamped as the newest sample is known, however both stamps were rounded.
+    return force->newest_s() + kStampRounding_s;
 }
 
 bool RoughnessChain::State::contactAt(double t_s, const ForceTrack::Reading& reading) const noexcept {
@@ -220,7 +221,8 @@ bool RoughnessChain::State::ready(double centre_s, double end_s) const noexcept 
     const bool silent = horizon_s() > std::max({taxels->newest_s(), centre_s + taxels->reach_s(), streamBegin_s()}) +
                                           ForceTrack::kLongestBridge_s;
     if (silent) return true;
-    if (taxels->newest_s() < centre_s && horizon_s() <= centre_s + taxels->reach_s() + kSkew_s) return false;
+    if (taxels->newest_s() + kStampRounding_s < centre_s && horizon_s() <= centre_s + taxels->reach_s() + kSkew_s)
+        return false;
     return taxels->decided(std::min(known, taxels->newest_s()));
 }
 

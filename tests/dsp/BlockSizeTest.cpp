@@ -159,3 +159,27 @@ TEST(BlockSize, FramesComeOutPromptly) {
     EXPECT_GT(frames.size(), 360U);
     EXPECT_LE(worst, 0.032 + 0.005 + 0.002) << "half a window, the next force sample, this loop's step";
 }
+
+TEST(BlockSize, AForceSampleOfTheLastStampEndsTheWaitHoweverBothWereRounded) {
+    RecordProperty("hazard", "H7");
+    // Windows of 64 ms end 63.75 ms after their first sample, so that force at 3.75 ms + k * 5 ms meets every fifth.
+    auto slide = makeSlide(4000, 3, 200, 200, 8);
+    Random random(5, "stamps");
+    for (int time = 0; time < 200; ++time) {
+        const auto begin_us = static_cast<std::uint64_t>(1e9 * random.uniform());
+        const auto stampsFrom = [&](std::size_t s, double first_us, double step_us) {
+            SampleBlock block;
+            for (int i = 0; first_us + i * step_us <= 143'750; ++i)
+                block.t_s.push_back((static_cast<double>(begin_us) + first_us + i * step_us) * 1e-6);
+            const auto values = slide.blocks[s].values.begin();
+            const auto count = static_cast<std::ptrdiff_t>(block.samples() * slide.streams[s].channels);
+            block.values.assign(values, values + count);
+            return block;
+        };
+        const std::vector<SampleBlock> blocks{stampsFrom(0, 0, 250), stampsFrom(1, 3750, 5000)};
+        const auto chain = RoughnessChain::create(std::span(slide.streams).first(2), {}).value();
+        std::vector<RoughnessFrame> frames;
+        chain->feed(blocks, frames);
+        ASSERT_EQ(frames.size(), 6U) << begin_us << " us";
+    }
+}
