@@ -22,8 +22,9 @@ struct Compared {
     std::size_t refused = 0;  ///< by the bench
     bool simulated = false;
 
-    /// Where no train was due, nothing is shown.
+    /// Where no train was due, or something was lost on the way, nothing is shown.
     [[nodiscard]] const char* verdict() const {
+        if (found.lost > 0) return "indeterminate";
         if (!found.holds()) return "fail";
         return found.trains + refused > 0 ? "pass" : "indeterminate";
     }
@@ -79,6 +80,8 @@ void printCompared(const Compared& compared) {
                fmt::format("{:.3g} ms", 1e3 * found.acceptedOnset_s)});
     table.print();
     std::vector<std::string> reasons;
+    if (found.lost > 0)
+        reasons.push_back(fmt::format("{} blocks or messages of the board were lost on the way here", found.lost));
     if (!found.unlike.empty()) reasons.push_back(found.unlike);
     if (found.trains + compared.refused == 0) reasons.emplace_back("no train was due: nothing slid under the finger");
     printVerdict(compared.verdict(), reasons);
@@ -108,6 +111,7 @@ int compareSensor(const QCommandLineParser& parser, double seconds) {
                    {"max_dA_pct", 100 * found.maxAmplitude},
                    {"max_onset_s", found.maxOnset_s},
                    {"refused_alike", found.refusedAlike},
+                   {"lost", found.lost},
                    {"unlike", found.unlike.empty() ? nlohmann::json(nullptr) : nlohmann::json(found.unlike)},
                    {"simulated", compared->simulated},
                    {"verdict", compared->verdict()}});

@@ -14,9 +14,11 @@ namespace tacto {
 
 namespace {
 
-constexpr double kTrainsApart_s = 0.025;  // half the shortest interval of the board
-constexpr double kBoardFrames_s = 4e-3;   // through its clock and its line
-constexpr double kBoardR = 0.02, kBoardP = 0.005, kBoardAmplitude = 0.05;
+constexpr double kTrainsApart_s = 0.025;                    // half the shortest interval of the board
+constexpr Instant kMissed = std::chrono::milliseconds(20);  // a board asks every 5 ms, and may be slow
+constexpr double kFramesApart_s = 3e-6;                     // a board's stamps are whole microseconds
+constexpr double kUnheard_s = 0.1;                          // what may still be on its way when the comparison ends
+constexpr double kRest_s = 8.1;                             // of a board that was switched on, and a turn of its loop
 
 te_stream streamOf(StreamKind kind) noexcept {
     return kind == StreamKind::Acceleration ? TE_ACCELERATION : kind == StreamKind::Force ? TE_FORCE : TE_TAXEL_ARRAY;
@@ -79,17 +81,19 @@ private:
     EncoderSide made_;
 };
 
-/// Leaves out what the other side may still be about to send.
-EncoderSide upTo(const EncoderSide& side, double end_s) {
-    EncoderSide kept = side;
-    std::erase_if(kept.frames, [=](const auto& frame) { return frame.t_s > end_s; });
-    std::erase_if(kept.trains, [=](const auto& train) { return train.onset_s > end_s; });
-    return kept;
-}
-
 void note(EncoderAgreement& found, std::string sentence) {
     found.refusedAlike = false;
     if (found.unlike.empty()) found.unlike = std::move(sentence);
+}
+
+constexpr std::string_view kBench = "the bench";
+
+/// What kept the board's trains back then, in words that follow a sentence.
+std::string silenceOf(const EncoderSide& board, double t_s) {
+    const EncodedSilence* last = nullptr;
+    for (const auto& silence : board.silences)
+        if (silence.t_s <= t_s + kTrainsApart_s) last = &silence;
+    return last != nullptr && !last->why.empty() ? fmt::format("; the board is silent: {}", last->why.view()) : "";
 }
 
 /// Calls `both` for what lies within `apart` of each other in two rows in order of time, `alone` for the rest.
@@ -102,7 +106,7 @@ void pairUp(const Row& bench, const Row& board, double apart, Time time, Both bo
         if (std::abs(a - b) <= apart)
             both(bench[i++], board[k++]);
         else if (a < b)
-            alone(time(bench[i++]), "the bench");
+            alone(time(bench[i++]), kBench);
         else
             alone(time(board[k++]), "the board");
     }
@@ -128,15 +132,16 @@ bool EncoderAgreement::holds() const noexcept {
            (maxAmplitude <= acceptedAmplitude || (maxAmplitudeSteps > 0 && maxAmplitudeSteps <= 1 + 1e-6));
 }
 
-EncoderAgreement agreementOf(const EncoderSide& bench, const EncoderSide& board, double amplitudeStep, double apart_s) {
+EncoderAgreement agreementOf(const EncoderSide& bench, const EncoderSide& board, double amplitudeStep) {
     EncoderAgreement found;
     const auto alone = [&](const char* what) {
-        return [&found, what](double t_s, const char* who) {
-            note(found, fmt::format("{} alone {} at {:.3f} s", who, what, t_s));
+        return [&, what](double t_s, std::string_view who) {
+            note(found, fmt::format("{} alone {} at {:.3f} s{}", who, what, t_s,
+                                    who == kBench ? silenceOf(board, t_s) : std::string()));
         };
     };
     pairUp(
-        bench.frames, board.frames, apart_s, [](const auto& frame) { return frame.t_s; },
+        bench.frames, board.frames, kFramesApart_s, [](const auto& frame) { return frame.t_s; },
         [&](const auto& ours, const auto& theirs) { compareFrames(ours, theirs, found); }, alone("has a frame"));
     pairUp(
         bench.trains, board.trains, kTrainsApart_s, [](const auto& train) { return train.onset_s; },
@@ -166,23 +171,41 @@ EncoderOutput idealOutput() {
 }
 
 struct EncoderComparison::State {
-    State(TactileSensor& finger, const Clock& at, const EncoderOutput& out, const EncodingProfile& encoding,
-          const te_profile& profile)
+    State(TactileSensor& finger, EncodingSensor* board, const Clock& at, const EncoderOutput& out,
+          const EncodingProfile& encoding, const te_profile& profile)
         : sensor(finger),
           clock(at),
-          gate(at),
+          gate(board != nullptr ? boards : at),
           planner(encoding, out.source, gate),
           own(profile),
+          board(board),
           load(out.load.nominal.series),
           step(out.source.amplitudeStep) {}
 
-    void driveBench(Instant now) {
+    Result<void> takeSamples(Instant now) {
+        session->serve(now);
+        if (session->failed()) return fail(ErrorCode::Device, "{}", session->error().view());
+        finger->update();
+        bench.frames.insert(bench.frames.end(), finger->frames().begin(), finger->frames().end());
+        return {};
+    }
+
+    /// Has the bench want its next train, and returns when that is due.
+    std::optional<Instant> want(Instant now) {
         const auto& frame = finger->latest();
-        if (finger->standing(toSeconds(now)) != FingerStanding::Fresh || !frame.contact || std::isnan(frame.R))
-            return planner.wantNothing();
+        if (rests || finger->standing(toSeconds(now)) != FingerStanding::Fresh || !frame.contact ||
+            std::isnan(frame.R)) {
+            planner.wantNothing();
+            return std::nullopt;
+        }
         const auto pressure = std::isnan(frame.P) ? std::nullopt : std::optional(frame.P);
-        if (!planner.want(frame.R, pressure, now)) return;
-        if (!(*planner.due() < now + ControlLoop::kPeriod)) return;
+        if (!planner.want(frame.R, pressure, now)) return std::nullopt;
+        return planner.due();
+    }
+
+    void driveBench(Instant now) {
+        const auto due = want(now);
+        if (!due || !(*due < now + ControlLoop::kPeriod)) return;
         planner.armedOn(load);
         if (const auto planned = planner.plan(now, load))
             bench.trains.push_back({toSeconds(planned->onset), level(planned->approved.train())});
@@ -190,26 +213,74 @@ struct EncoderComparison::State {
             bench.refused_s.push_back(toSeconds(now));
     }
 
-    /// Takes what the board sent with the last read.
-    void take(const Encoded& from) {
-        for (const auto& f : from.frames)
-            sent.frames.push_back({f.t_s, f.contact, f.sliding, f.h, f.v, f.R, f.pressure_pa, f.P});
-        for (const auto& train : from.trains) sent.trains.push_back({train.onset_s, train.amplitude});
+    /// Has the bench make its trains when the board's encoder was asked for one.
+    void driveWith(double asked_s) {
+        const Instant asked = toInstant(Seconds(asked_s));
+        boards.advanceTo(asked);
+        driveBench(asked);
+    }
+
+    /// Goes on to a time at which the board made something. What it should have made before is missing there.
+    void reach(double t_s) {
+        const Instant now = toInstant(Seconds(t_s));
+        if (now <= reached) return;
+        reached = now;
+        if (const auto due = planner.due(); due && *due + kMissed < now) driveWith(toSeconds(*due));
+        static_cast<void>(want(now));
+    }
+
+    void take(const EncodedSilence& silence) {
+        if (sent.silences.empty()) restsUntil_s = silence.t_s + kRest_s;
+        rests = silence.rests && silence.t_s < restsUntil_s;
+        reach(silence.t_s);
+        driveWith(silence.t_s);
+        sent.silences.push_back(silence);
+        if (silence.refused) sent.refused_s.push_back(silence.t_s);
+    }
+
+    void take(const EncodedTrain& train) {
+        rests = false;
+        reach(train.made_s);
+        driveWith(train.made_s);
+        sent.trains.push_back({train.onset_s, train.amplitude});
+    }
+
+    /// Follows the board message by message, in its own time, so that the bench has what the board had at each.
+    Result<void> followBoard() {
+        for (bool more = true; more;) {
+            if (auto taken = takeSamples(clock.now()); !taken) return taken;
+            const auto& said = board->encoded();
+            more = !said.frames.empty() || !said.trains.empty() || !said.silences.empty();
+            for (const auto& block : finger->blocks()) {
+                if (block.samples() == 0) continue;
+                more = true;
+                reach(block.t_s.back());
+            }
+            for (const auto& f : said.frames)
+                sent.frames.push_back({f.t_s, f.contact, f.sliding, f.h, f.v, f.R, f.pressure_pa, f.P});
+            for (const auto& silence : said.silences) take(silence);
+            for (const auto& train : said.trains) take(train);
+        }
+        return {};
     }
 
     Undeclared sensor;
     const Clock& clock;
+    VirtualClock boards;  // the time of a board that encodes
     SafetyGate gate;
     TrainPlanner planner;
     std::unique_ptr<SensorSession> session;
     std::unique_ptr<FingerInput> finger;
     EncoderSide bench;
     OwnEncoder own;
-    EncodingSensor* encoding = nullptr;  // a board that encodes
-    EncoderSide sent;                    // by it
+    EncodingSensor* const board;  // null: the encoder here takes its place
+    EncoderSide sent;             // by the board
+    Instant reached{0};           // by the board's clock
+    bool rests = false;           // the board does, after it was switched on
+    double restsUntil_s = 0;
     const Ohms load;
     const double step;
-    Instant drives{0};  // when both sides are next asked for trains
+    Instant drives{0};  // when both sides here are next asked for trains
 };
 
 EncoderComparison::EncoderComparison(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -222,19 +293,18 @@ Result<std::unique_ptr<EncoderComparison>> EncoderComparison::create(TactileSens
     const auto encoder =
         encoderProfile(sensor.streams(), profile.roughness, profile.encoding, output, sensor.identity().serial);
     if (!encoder) return failure(encoder);
-    auto* const encoding = dynamic_cast<EncodingSensor*>(&sensor);
     if (auto* loader = dynamic_cast<EncoderLoader*>(&sensor); loader != nullptr && loader->wantsProfile()) {
         if (const auto loaded = loader->load(profileBytes(*encoder), true); !loaded) return failure(loaded);
     }
-    auto state = std::make_unique<State>(sensor, clock, output, profile.encoding, *encoder);
-    if (encoding != nullptr && encoding->encoder()) {
-        if (encoding->encoder()->hash != encoder->hash) {
-            return fail(ErrorCode::Unsupported,
-                        "the profile in the encoder of {} has the hash {:08x}; {:08x}, of \"{}\", was expected",
-                        sensor.identity().name, encoding->encoder()->hash, encoder->hash, profile.name);
-        }
-        state->encoding = encoding;
+    auto* board = dynamic_cast<EncodingSensor*>(&sensor);
+    if (board != nullptr && !board->encoder()) board = nullptr;
+    if (board != nullptr && board->encoder()->hash != encoder->hash) {
+        return fail(ErrorCode::Unsupported,
+                    "the profile in the encoder of {} has the hash {:08x}; {:08x}, of \"{}\", was expected",
+                    sensor.identity().name, board->encoder()->hash, encoder->hash, profile.name);
     }
+    if (board != nullptr) board->keepBoardTime();
+    auto state = std::make_unique<State>(sensor, board, clock, output, profile.encoding, *encoder);
     GateSetup setup;
     setup.source = output.source;
     setup.load = output.load;
@@ -254,45 +324,34 @@ Result<std::unique_ptr<EncoderComparison>> EncoderComparison::create(TactileSens
 
 Result<void> EncoderComparison::turn() {
     auto& s = *state_;
+    if (s.board != nullptr) return s.followBoard();
     const Instant now = s.clock.now();
-    s.session->serve(now);
-    if (s.session->failed()) return fail(ErrorCode::Device, "{}", s.session->error().view());
-    s.finger->update();
-    s.bench.frames.insert(s.bench.frames.end(), s.finger->frames().begin(), s.finger->frames().end());
-    if (s.encoding != nullptr)
-        s.take(s.encoding->encoded());
-    else
-        s.own.feed(s.sensor.streams(), s.finger->blocks());
+    if (auto taken = s.takeSamples(now); !taken) return taken;
+    s.own.feed(s.sensor.streams(), s.finger->blocks());
     if (now < s.drives) return {};
     s.drives = now + ControlLoop::kPeriod;
     s.driveBench(now);
-    if (s.encoding == nullptr) s.own.drive(now);
+    s.own.drive(now);
     return {};
 }
 
 const EncoderSide& EncoderComparison::bench() const noexcept { return state_->bench; }
 const EncoderSide& EncoderComparison::board() const noexcept {
-    return state_->encoding != nullptr ? state_->sent : state_->own.made();
+    return state_->board != nullptr ? state_->sent : state_->own.made();
 }
 
 EncoderAgreement EncoderComparison::agreement() const {
-    EncoderAgreement found;
-    if (state_->encoding == nullptr) {
-        found = agreementOf(bench(), board(), state_->step);
-        found.acceptedOnset_s = 1e-3;
-        for (const auto& info : state_->sensor.streams())
-            if (info.kind == StreamKind::Acceleration) found.acceptedOnset_s = 1 / info.rate_hz;
-        return found;
+    EncoderSide ours = bench();
+    if (state_->board != nullptr && !ours.frames.empty()) {
+        const double heard_s = board().frames.empty() ? -kInfinity_s : board().frames.back().t_s;
+        const double end_s = std::max(heard_s, ours.frames.back().t_s - kUnheard_s) + kFramesApart_s;
+        std::erase_if(ours.frames, [=](const auto& frame) { return frame.t_s > end_s; });
     }
-    if (bench().frames.empty() || board().frames.empty()) return found;
-    const double end_s = std::min(bench().frames.back().t_s, board().frames.back().t_s) + kBoardFrames_s;
-    EncoderSide ours = upTo(bench(), end_s);
-    ours.refused_s.clear();  // a board sends no train that it refuses
-    found = agreementOf(ours, upTo(board(), end_s), state_->step, kBoardFrames_s);
-    found.acceptedR = kBoardR;
-    found.acceptedP = kBoardP;
-    found.acceptedOnset_s = kTrainsApart_s;
-    found.acceptedAmplitude = kBoardAmplitude;
+    auto found = agreementOf(ours, board(), state_->step);
+    found.acceptedOnset_s = 1e-3;
+    for (const auto& info : state_->sensor.streams())
+        if (info.kind == StreamKind::Acceleration) found.acceptedOnset_s = 1 / info.rate_hz;
+    if (state_->board != nullptr) found.lost = state_->board->lostOnTheWay();
     return found;
 }
 

@@ -2,7 +2,9 @@
 // (resources/firmware/tactile_encoder), turn by turn as the control loop takes them, and how far apart the results are.
 //
 // The bench's side is the bench's own code up to the gate: FingerInput, TrainPlanner, SafetyGate. Nothing is delivered.
-// The board's side is what a board that encodes sends, else the encoder's C99 code here.
+// The board's side is what a board that encodes sends, else the encoder's C99 code here. A board is followed message by
+// message on its own clock, with the samples that it had and at the moments at which it asked its encoder, so that the
+// same limits hold for it as for the code here.
 // A board knows no declared intervals of rest or contact, so neither side is told them.
 //
 // Thread-safety: none; one owner.
@@ -29,7 +31,8 @@ struct ComparedTrain {
 struct EncoderSide {
     std::vector<RoughnessFrame> frames;
     std::vector<ComparedTrain> trains;
-    std::vector<double> refused_s;  ///< when a train was refused
+    std::vector<double> refused_s;         ///< when a train was refused
+    std::vector<EncodedSilence> silences;  ///< of a board
 };
 
 /// The largest differences between the frames and trains of both sides.
@@ -42,15 +45,17 @@ struct EncoderAgreement {
     /// True if both made the same trains and frames, refused the same trains, and left out the same values.
     bool refusedAlike = true;
     std::string unlike;  ///< the first thing that one side alone has, in a sentence; empty if there is none
+    /// How many blocks and messages of a board were lost on the way here: then the bench had not what the board had,
+    /// and nothing is shown.
+    std::uint64_t lost = 0;
 
     double acceptedR = 0.01, acceptedP = 0.002, acceptedOnset_s = 0, acceptedAmplitude = 0.005;  ///< at most
     /// True if nothing is above what is accepted, amplitudes also within one step.
     [[nodiscard]] bool holds() const noexcept;
 };
 
-/// Compares frames whose stamps differ by at most `apart_s`, and trains whose onsets differ by at most 25 ms.
-[[nodiscard]] EncoderAgreement agreementOf(const EncoderSide& bench, const EncoderSide& board, double amplitudeStep,
-                                           double apart_s = 2e-6);
+/// Compares frames whose stamps differ by at most 3 us, and trains whose onsets differ by at most 25 ms.
+[[nodiscard]] EncoderAgreement agreementOf(const EncoderSide& bench, const EncoderSide& board, double amplitudeStep);
 
 /// A voltage source of up to 60 V without steps or errors, on 1 kohm.
 [[nodiscard]] EncoderOutput idealOutput();
@@ -69,16 +74,13 @@ public:
                                                                            const Clock& clock);
     ~EncoderComparison();
 
-    /// Reads the sensor, and every ControlLoop::kPeriod lets both sides make trains; to be called every kTurn, because
-    /// a board's clock is known as well as its line is watched. Errors: Device, as the sensor.
+    /// Reads the sensor, and every ControlLoop::kPeriod lets both sides make trains, or when a board made its own; to
+    /// be called every kTurn. Errors: Device, as the sensor.
     [[nodiscard]] Result<void> turn();
 
     [[nodiscard]] const EncoderSide& bench() const noexcept;
     [[nodiscard]] const EncoderSide& board() const noexcept;
-    /// Onsets may differ by a sample of acceleration, or 1 ms. More is accepted of a board: 25 ms and 5 % of amplitude,
-    /// because its turns are not the bench's and its samples come in blocks, so that a train may go by the frame
-    /// before; 0.02 of R and 0.005 of P, because the bench maps its stamps and may be off by a millisecond while force
-    /// changes.
+    /// Onsets may differ by a sample of acceleration; by 1 ms where there is none.
     [[nodiscard]] EncoderAgreement agreement() const;
 
 private:

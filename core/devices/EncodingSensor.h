@@ -42,12 +42,15 @@ struct EncodedTrain {
     Volts command{0};      ///< A of science.md section 4
     double amplitude = 0;  ///< V, or mA of a current source
     PulseTrain form;       ///< all but the amplitude, in single precision
+    double made_s = 0;     ///< when the encoder made it
 };
 
-/// Why the board sends no train, from `t_s` on.
+/// Why the board sends no train, from `t_s` on, when its encoder was asked for one.
 struct EncodedSilence {
     double t_s = 0;
-    FixedText<200> why;  ///< in words, without a verb; empty: nothing keeps trains back any longer
+    FixedText<200> why;    ///< in words, without a verb; empty: nothing keeps trains back any longer
+    bool refused = false;  ///< a train was due, and its gate refused it
+    bool rests = false;    ///< it was switched on less than 8 s ago, and does not know what came out before
 };
 
 /// In the order of arrival; each at most once, none after a later one.
@@ -69,6 +72,12 @@ public:
     [[nodiscard]] virtual std::optional<BoardEncoder> encoder() const noexcept = 0;
     /// What came with the last read(). Valid until the next.
     [[nodiscard]] virtual const Encoded& encoded() const noexcept = 0;
+    /// For who compares what the board makes with what it had: from the first read() on, all times are seconds of the
+    /// board's own clock, and a read() ends after each message of the encoder, so that the samples that came with it
+    /// came before. The board's clock is not judged then.
+    virtual void keepBoardTime() noexcept = 0;
+    /// How many blocks of samples and messages of the encoder were lost on the way here.
+    [[nodiscard]] virtual std::uint64_t lostOnTheWay() const noexcept = 0;
 };
 
 }  // namespace tacto

@@ -256,6 +256,7 @@ std::optional<BoardTrain> readTrain(const Frame& frame) noexcept {
     train.rechargeRatio = in.f32();
     train.pulses = in.u32();
     train.rate_hz = in.f32();
+    train.ahead_us = in.u16();
     if (!in.whole() || train.shape > 2 || negative > 1 || train.pulses == 0) return std::nullopt;
     for (const double above : {train.interval_s, train.command_v, train.amplitude, train.width_us, train.rate_hz})
         if (!(above > 0 && std::isfinite(above))) return std::nullopt;

@@ -108,6 +108,7 @@ struct BoardTrain {
     double width_us = 0, gap_us = 0, rechargeRatio = 0;
     std::uint32_t pulses = 0;
     double rate_hz = 0;
+    std::uint16_t ahead_us = 0;  ///< from when it was made to its onset
 };
 
 struct BoardSilence {

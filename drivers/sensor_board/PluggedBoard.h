@@ -30,6 +30,10 @@ public:
     [[nodiscard]] Result<void> read(std::span<SampleBlock> blocks) override;
     [[nodiscard]] std::optional<BoardEncoder> encoder() const noexcept override { return encoder_; }
     [[nodiscard]] const Encoded& encoded() const noexcept override { return encoded_; }
+    void keepBoardTime() noexcept override {
+        if (board_) board_->keepBoardTime();
+    }
+    [[nodiscard]] std::uint64_t lostOnTheWay() const noexcept override { return board_ ? board_->lostOnTheWay() : 0; }
     [[nodiscard]] Result<void> reconnect() override;
     /// Opens the board again after `write` has given it another profile, while it is closed. Errors: as reconnect().
     [[nodiscard]] Result<void> rewrite(const std::function<void()>& write);

@@ -61,7 +61,9 @@ Result<void> SensorBoard::takeFrames(std::span<SampleBlock> blocks) {
                 }
                 if (const auto seen = observe(status->time_us); !seen) return seen;
                 current_.board = *status;
-            } else if (!takeEncoded(*frame) && frame->version != kVersion) {
+            } else if (takeEncoded(*frame)) {
+                if (boardTime_) return {};
+            } else if (frame->version != kVersion) {
                 ++current_.foreign;
             }
         }
@@ -85,7 +87,8 @@ Result<void> SensorBoard::takeBlock(const Frame& frame, std::span<SampleBlock> b
     switch (track.take(*block)) {
         case StreamTrack::Verdict::Next:
             if (const auto seen = observe(StreamTrack::endOf(*block)); !seen) return seen;
-            track.append(*block, fit_, blocks[at]);
+            track.append(
+                *block, [this](double us) { return timeOf(us); }, blocks[at]);
             return {};
         case StreamTrack::Verdict::Late:
             if (track.lateInARow() < kMaxLate) return {};
@@ -114,6 +117,7 @@ EncodedTrain trainOf(const BoardTrain& from, double onset_s) {
     train.form.rechargeRatio = from.rechargeRatio;
     train.form.pulses = static_cast<int>(std::min<std::uint32_t>(from.pulses, std::numeric_limits<int>::max()));
     train.form.rate = Hertz(from.rate_hz);
+    train.made_s = onset_s - from.ahead_us * 1e-6;
     return train;
 }
 
@@ -121,8 +125,8 @@ EncodedTrain trainOf(const BoardTrain& from, double onset_s) {
 
 std::optional<double> SensorBoard::place(SequenceTrack& track, std::uint32_t sequence, std::uint64_t time_us) noexcept {
     const auto missing = track.take(sequence);
-    const double t_s = fit_.toSession(static_cast<double>(time_us));
-    if (!missing || !(std::abs(t_s - toSeconds(link_.arrival())) <= kEncodedWithin_s)) {
+    const double t_s = timeOf(static_cast<double>(time_us));
+    if (!missing || (!boardTime_ && !(std::abs(t_s - toSeconds(link_.arrival())) <= kEncodedWithin_s))) {
         ++current_.encodedLate;
         return std::nullopt;
     }
@@ -156,11 +160,19 @@ bool SensorBoard::takeEncoded(const Frame& frame) {
     const auto silence = readSilence(frame);
     if (!silence || !encoder_) return unused(current_.foreign);
     if (const auto t_s = place(silences_, silence->sequence, silence->time_us))
-        encoded_.silences.push_back({*t_s, std::string_view(silenceWords(silence->faults, silence->refusal))});
+        encoded_.silences.push_back({*t_s, std::string_view(silenceWords(silence->faults, silence->refusal)),
+                                     silence->refusal != TE_ACCEPTED, (silence->faults & TE_FAULT_RESTING) != 0});
     return true;
 }
 
+std::uint64_t SensorBoard::lostOnTheWay() const noexcept {
+    std::uint64_t lost = current_.encodedLost + current_.encodedLate + link_.dropped();
+    for (const auto& track : tracks_) lost += track.counts().lostBlocks + track.counts().unsound;
+    return lost;
+}
+
 Result<void> SensorBoard::observe(std::uint64_t device_us) {
+    if (boardTime_) return {};
     if (const double early = fit_.early_s(device_us, link_.arrival()); early > kMaxJump_s) {
         return fail(ErrorCode::Device, "its clock jumped ahead by {:.3g} s; {} s at most were expected", early,
                     kMaxJump_s);

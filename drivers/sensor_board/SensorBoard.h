@@ -24,6 +24,7 @@
 #include "core/devices/EncodingSensor.h"
 #include "core/devices/TactileSensor.h"
 #include "drivers/sensor_board/BoardLink.h"
+#include "drivers/sensor_board/ClockFit.h"
 #include "drivers/sensor_board/StreamTrack.h"
 
 namespace tacto {
@@ -81,6 +82,8 @@ public:
     [[nodiscard]] Result<void> read(std::span<SampleBlock> blocks) override;
     [[nodiscard]] std::optional<BoardEncoder> encoder() const noexcept override { return encoder_; }
     [[nodiscard]] const Encoded& encoded() const noexcept override { return encoded_; }
+    void keepBoardTime() noexcept override { boardTime_ = true; }
+    [[nodiscard]] std::uint64_t lostOnTheWay() const noexcept override;
 
     /// The calibrations that were read from the board, one per stream. Constant while open.
     [[nodiscard]] const std::vector<sensorboard::StreamCalibration>& calibrations() const noexcept {
@@ -108,6 +111,9 @@ private:
     /// Returns the session's time of a message that is the next of its kind; nothing for one that is not used.
     [[nodiscard]] std::optional<double> place(sensorboard::SequenceTrack& track, std::uint32_t sequence,
                                               std::uint64_t time_us) noexcept;
+    [[nodiscard]] double timeOf(double device_us) const noexcept {
+        return boardTime_ ? device_us * 1e-6 : fit_.toSession(device_us);
+    }
     [[nodiscard]] Result<void> observe(std::uint64_t device_us);
     [[nodiscard]] Result<void> judgeNoise();
     void publish() noexcept;
@@ -120,6 +126,7 @@ private:
     std::vector<sensorboard::StreamCalibration> calibrations_;
     std::array<int, sensorboard::kMaxStreams> trackOf_{};  // index: the board's stream number; -1: unused
     sensorboard::ClockFit fit_;
+    bool boardTime_ = false;
     Instant lastSound_{0};           // when a valid frame last came
     std::uint64_t soundFrames_ = 0;  // value at lastSound_
     std::uint64_t bytesThen_ = 0;    // value at lastSound_

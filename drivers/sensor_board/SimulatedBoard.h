@@ -39,6 +39,8 @@ public:
     [[nodiscard]] Result<void> read(std::span<SampleBlock> blocks) override { return plugged_->read(blocks); }
     [[nodiscard]] std::optional<BoardEncoder> encoder() const noexcept override { return plugged_->encoder(); }
     [[nodiscard]] const Encoded& encoded() const noexcept override { return plugged_->encoded(); }
+    void keepBoardTime() noexcept override { plugged_->keepBoardTime(); }
+    [[nodiscard]] std::uint64_t lostOnTheWay() const noexcept override { return plugged_->lostOnTheWay(); }
     [[nodiscard]] bool wantsProfile() const noexcept override { return encodes_ != Encodes::No && !hasOwnProfile_; }
     [[nodiscard]] Result<void> load(std::string_view profile, bool rested) override;
     [[nodiscard]] DeviceReport deviceReport() const noexcept override { return plugged_->deviceReport(); }

@@ -66,12 +66,13 @@ StreamTrack::Verdict StreamTrack::take(const DataBlock& block) noexcept {
     return Verdict::Next;
 }
 
-void StreamTrack::append(const DataBlock& block, const ClockFit& clock, SampleBlock& into) const {
+void StreamTrack::append(const DataBlock& block, const std::function<double(double us)>& timeOf,
+                         SampleBlock& into) const {
     const auto columns = configuration_.columns.size();
     // Between two times this close together the mapping is a straight line.
-    const double first = clock.toSession(static_cast<double>(block.time_us));
+    const double first = timeOf(static_cast<double>(block.time_us));
     const double span_us = (block.count - 1) * (block.interval_ns * 1e-3);
-    const double last = clock.toSession(static_cast<double>(block.time_us) + span_us);
+    const double last = timeOf(static_cast<double>(block.time_us) + span_us);
     const double step = block.count > 1 ? (last - first) / (block.count - 1) : 0;
     for (int i = 0; i < block.count; ++i) into.t_s.push_back(first + i * step);
 

@@ -7,10 +7,11 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 
-#include "drivers/sensor_board/ClockFit.h"
+#include "core/base/Stream.h"
 #include "drivers/sensor_board/Messages.h"
 
 namespace tacto::sensorboard {
@@ -46,8 +47,8 @@ public:
     [[nodiscard]] Verdict take(const DataBlock& block) noexcept;
     /// Returns the board time of a block's last sample in µs.
     [[nodiscard]] static std::uint64_t endOf(const DataBlock& block) noexcept;
-    /// Appends the samples of a block for which take() returned Next.
-    void append(const DataBlock& block, const ClockFit& clock, SampleBlock& into) const;
+    /// Appends the samples of a block for which take() returned Next, at the times that `timeOf` gives for board times.
+    void append(const DataBlock& block, const std::function<double(double us)>& timeOf, SampleBlock& into) const;
 
     [[nodiscard]] const StreamConfiguration& configuration() const noexcept { return configuration_; }
     [[nodiscard]] const StreamCounts& counts() const noexcept { return counts_; }

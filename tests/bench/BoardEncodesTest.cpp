@@ -35,6 +35,8 @@ public:
     }
     std::optional<BoardEncoder> encoder() const noexcept override { return encoder_; }
     const Encoded& encoded() const noexcept override { return encoded_; }
+    void keepBoardTime() noexcept override {}
+    std::uint64_t lostOnTheWay() const noexcept override { return 0; }
 
     Encoded next;         ///< comes with the next read()
     bool silent = false;  ///< true: no samples come any more

@@ -39,12 +39,11 @@ Trains expectAgreement(Driver& driver, const DeviceUri& uri, const Profile& prof
     const auto found = (*comparison)->agreement();
     EXPECT_TRUE(found.refusedAlike) << what << ": " << found.unlike;
     EXPECT_EQ(found.unlike, "");
-    if (!uri.text().starts_with("sim:board")) {
-        EXPECT_EQ(found.acceptedR, 0.01);
-        EXPECT_EQ(found.acceptedP, 0.002);
-        EXPECT_EQ(found.acceptedAmplitude, 0.005);
-        EXPECT_LE(found.acceptedOnset_s, 0.0102);
-    }
+    EXPECT_EQ(found.acceptedR, 0.01);
+    EXPECT_EQ(found.acceptedP, 0.002);
+    EXPECT_EQ(found.acceptedAmplitude, 0.005);
+    EXPECT_LE(found.acceptedOnset_s, 0.0102);
+    EXPECT_EQ(found.lost, 0U);
     EXPECT_LE(found.maxR, found.acceptedR) << what;
     EXPECT_LE(found.maxP, found.acceptedP) << what;
     EXPECT_LE(found.maxOnset_s, found.acceptedOnset_s) << what;

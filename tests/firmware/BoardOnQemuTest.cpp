@@ -190,6 +190,7 @@ void expectWithin(FieldReader& in, const te_profile& profile, std::uint64_t& ons
     EXPECT_EQ(in.f32(), double{profile.recharge_ratio});
     EXPECT_EQ(in.u32(), profile.pulses);
     EXPECT_EQ(in.f32(), double{profile.pulse_hz});
+    EXPECT_LE(in.u16(), TE_AHEAD_NS / 1000);
     EXPECT_TRUE(in.whole());
 }
 

@@ -41,6 +41,7 @@ void FingerWatch::read(Instant now, StepTelemetry& shown) noexcept {
         shown.boardPressure = frame.P;
     }
     for (const auto& silence : finger_->encoded().silences) {
+        if (silence.why == shown.boardSilent) continue;  // said again for each train refused
         shown.boardSilent = silence.why;
         journal_.boardSilent(now, silence.why.view());
     }

@@ -109,12 +109,14 @@ struct tsb_train {
     float width_us, gap_us, recharge_ratio;
     uint32_t pulses;
     float pulse_hz;
+    uint16_t ahead_us; /* from when the encoder made it to its onset */
 };
 
-/* Why no train comes, whenever that changes; faults 0 and refusal 0: nothing keeps them back. */
+/* Why no train comes, whenever that changes and for each train refused; faults 0 and refusal 0: nothing keeps them
+ * back. */
 struct tsb_silence {
     uint32_t sequence; /* of these since START, from 0, also those thrown away */
-    uint64_t time_us;  /* since power-up, when this was written */
+    uint64_t time_us;  /* since power-up, when the encoder was asked */
     uint32_t faults;   /* te_fault() */
     uint8_t refusal;   /* enum te_refusal of the train that was due and refused; 0: none */
 };

@@ -125,6 +125,7 @@ size_t tsb_encode_train(uint8_t* frame, const struct tsb_train* train) {
     tsb_put_f32(&writer, train->recharge_ratio);
     tsb_put_u32(&writer, train->pulses);
     tsb_put_f32(&writer, train->pulse_hz);
+    tsb_put_u16(&writer, train->ahead_us);
     return tsb_seal(&writer);
 }
 

@@ -106,7 +106,7 @@ static void play(struct tb_board* board, const struct te_train* train) {
     if (!board->hardware->play(board->hardware->context, train) || is_stopped(board)) tb_stop(board);
 }
 
-static void say_train(struct tb_board* board, const struct te_train* train) {
+static void say_train(struct tb_board* board, const struct te_train* train, uint64_t now_us) {
     struct tsb_train said;
     said.sequence = board->trains++;
     said.onset_us = (uint64_t)train->onset_ns / US_NS;
@@ -120,6 +120,7 @@ static void say_train(struct tb_board* board, const struct te_train* train) {
     said.recharge_ratio = train->recharge_ratio;
     said.pulses = train->pulses;
     said.pulse_hz = train->pulse_hz;
+    said.ahead_us = (uint16_t)(said.onset_us - now_us);
     (void)say(board, tsb_encode_train(board->frame, &said));
 }
 
@@ -128,13 +129,16 @@ static void say_silence(struct tb_board* board, uint64_t now_us) {
     struct tsb_silence said;
     said.faults = te_fault(&board->encoder, ns_of(now_us));
     said.refusal = (uint8_t)te_refused(&board->encoder);
-    if (board->told && said.faults == board->faults && said.refusal == board->refusal) return;
+    if (board->told && said.faults == board->faults && said.refusal == board->refusal &&
+        board->refused == board->encoder.trains_refused)
+        return;
     said.sequence = board->silences++;
     said.time_us = now_us;
     if (!say(board, tsb_encode_silence(board->frame, &said))) return;
     board->told = 1U;
     board->faults = said.faults;
     board->refusal = said.refusal;
+    board->refused = board->encoder.trains_refused;
 }
 
 static void ask_for_train(struct tb_board* board, uint64_t now_us) {
@@ -145,7 +149,7 @@ static void ask_for_train(struct tb_board* board, uint64_t now_us) {
         if (board->alone) {
             play(board, &train);
         } else {
-            say_train(board, &train);
+            say_train(board, &train, now_us);
         }
     }
     if (board->running) say_silence(board, now_us);

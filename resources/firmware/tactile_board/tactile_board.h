@@ -84,7 +84,7 @@ struct tb_board {
     uint32_t sequence[TB_STREAMS], index[TB_STREAMS];
     uint64_t heard_us[TB_STREAMS]; /* when a stream gave its newest block */
     uint32_t readings, trains, silences;
-    uint32_t faults, refusal; /* that the host was told */
+    uint32_t faults, refusal, refused; /* that the host was told */
     uint32_t samples_lost, blocks_dropped;
     uint64_t asked_us, status_us, quiet_us;
     uint8_t running, alone, mode, told, rested;

@@ -44,7 +44,7 @@ std::uint64_t boardTime(SensorBoardBench& bench) {
 }
 
 tsb_train trainAt(std::uint32_t sequence, std::uint64_t onset_us) {
-    return {sequence, onset_us, 0.5F, 20.0F, 20.0F, TE_SYMMETRIC, 0, 200.0F, 100.0F, 10.0F, 10, 100.0F};
+    return {sequence, onset_us, 0.5F, 20.0F, 20.0F, TE_SYMMETRIC, 0, 200.0F, 100.0F, 10.0F, 10, 100.0F, 2500};
 }
 
 /// Reads once, a moment later, and returns what the encoder said.

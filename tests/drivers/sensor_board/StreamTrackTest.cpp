@@ -143,6 +143,7 @@ TEST(SensorBoardStream, NumbersBecomeValues) {
     RecordProperty("hazard", "H4");
     ClockFit clock;
     clock.observe(2000, toInstant(10));
+    const auto timeOf = [&](double us) { return clock.toSession(us); };
     DataBlock block;
     block.count = 2;
     block.time_us = 1750;
@@ -152,7 +153,7 @@ TEST(SensorBoardStream, NumbersBecomeValues) {
     StreamTrack two(configuration(SampleFormat::Int16, 2));
     ASSERT_EQ(two.take(block), Verdict::Next);
     SampleBlock into;
-    two.append(block, clock, into);
+    two.append(block, timeOf, into);
     EXPECT_EQ(into.values, (std::vector<double>{0.5, 0.5, -16384, 16384.5}));
     ASSERT_EQ(into.t_s.size(), 2U);
     EXPECT_NEAR(into.t_s[0], 10 - 250e-6, 1e-9);
@@ -162,7 +163,7 @@ TEST(SensorBoardStream, NumbersBecomeValues) {
     block.samples = wide;
     StreamTrack one(configuration(SampleFormat::Int32, 1));
     ASSERT_EQ(one.take(block), Verdict::Next);
-    one.append(block, clock, into);
+    one.append(block, timeOf, into);
     EXPECT_EQ(into.values.size(), 6U) << "appended";
     EXPECT_EQ(into.values[4], -1073741824.0);
     EXPECT_EQ(into.values[5], 1073741823.5);

@@ -213,7 +213,8 @@ TEST(SensorBoardWire, ATrainOfAnyNumbersComesAsItWasSent) {
                               above(),
                               above(),
                               *rc::gen::inRange<std::uint32_t>(1, 0xFFFFFFFFU),
-                              above()};
+                              above(),
+                              *rc::gen::arbitrary<std::uint16_t>()};
         std::array<std::uint8_t, TSB_FRAME_MOST> frame{};
         FrameDecoder decoder;
         std::span<const std::uint8_t> bytes(frame.data(), tsb_encode_train(frame.data(), &train));
@@ -227,6 +228,7 @@ TEST(SensorBoardWire, ATrainOfAnyNumbersComesAsItWasSent) {
         RC_ASSERT(read->negative == (train.negative == 1) && read->width_us == train.width_us);
         RC_ASSERT(read->gap_us == train.gap_us && read->rechargeRatio == train.recharge_ratio);
         RC_ASSERT(read->pulses == train.pulses && read->rate_hz == train.pulse_hz);
+        RC_ASSERT(read->ahead_us == train.ahead_us);
     }));
 }
 

@@ -93,7 +93,8 @@ static void put_blocks(struct output* out) {
 
 static void put_encoder(struct output* out) {
     static const struct tsb_encoder encoder = {TSB_MODE_ENCODE, 0, 1U, 0x89ABCDEFU};
-    static const struct tsb_train train = {258U, 5000000U, 0.5F, 13.5F, 6.75F, 1, 1, 200.0F, 50.0F, 10.0F, 10U, 100.0F};
+    static const struct tsb_train train = {258U,   5000000U, 0.5F,  13.5F, 6.75F,  1,    1,
+                                           200.0F, 50.0F,    10.0F, 10U,   100.0F, 3500U};
     static const struct tsb_silence faulty = {3U, 6000000U, 2U | 8U, 0};
     static const struct tsb_silence refused = {4U, 7000000U, 0U, 16};
     static const uint8_t absent[4] = {0x00, 0x00, 0xC0, 0x7F}; /* a quiet NaN */
