@@ -126,7 +126,8 @@ void AccelerationTrack::queueWindows() noexcept {
         // Computed as one expression, as in the definition: t0 + (k·H + N/2) / fs.
         const double samples = static_cast<double>(hops_ * hop_) + 0.5 * static_cast<double>(length_);
         auto& window = windows_[(windowsFront_ + waiting_) % windows_.size()];
-        window = {nextWindow_, begin, anchor_ + samples / rate_, begin + static_cast<double>(length_ - 1) / rate_};
+        window = {nextWindow_, begin, anchor_ + samples / rate_, begin + static_cast<double>(length_ - 1) / rate_,
+                  stamps_[nextWindow_ + length_ - 1 - offset_]};
         if (waiting_ < windows_.size()) ++waiting_;
         ++hops_;
     }

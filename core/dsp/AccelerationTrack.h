@@ -22,7 +22,8 @@ struct AccelerationWindow {
     std::size_t first;
     double begin_s;
     double centre_s;
-    double end_s;  ///< time of the last sample
+    double end_s;   ///< time of the last sample, at the nominal rate
+    double last_s;  ///< its stamp
 };
 
 class AccelerationTrack {

@@ -245,7 +245,7 @@ void RoughnessChain::State::advance(std::vector<RoughnessFrame>& frames, bool fo
     if (acceleration) {
         for (const auto* window = acceleration->frontWindow(); window != nullptr;
              window = acceleration->frontWindow()) {
-            if (!regardless && !ready(window->centre_s, window->end_s)) break;
+            if (!regardless && !ready(window->centre_s, std::max(window->end_s, window->last_s))) break;
             evaluate(window->begin_s, window->centre_s, window->end_s, window, frames);
             acceleration->popWindow();
             regardless = false;

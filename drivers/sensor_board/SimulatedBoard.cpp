@@ -9,7 +9,7 @@ namespace tacto::sensorboard {
 
 namespace {
 constexpr std::string_view kKeys[] = {"encodes", "drift", "profile"};
-constexpr double kMaxDrift_ppm = 20'000;
+constexpr double kMaxDrift_ppm = 50'000;
 constexpr std::size_t kMaxProfile = 10'000;  // bytes
 }  // namespace
 

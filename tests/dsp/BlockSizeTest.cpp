@@ -124,6 +124,14 @@ TEST(BlockSize, DoesNotMatterWithoutAcceleration) {
 }
 TEST(BlockSize, DoesNotMatterWithoutForce) { expectAnyBlockSize(makeSlide(1000, 2, 0, 50, 4)); }
 
+TEST(BlockSize, DoesNotMatterWhereTheSensorsClockRunsWrong) {
+    for (const double rate : {0.98, 1.02}) {
+        auto slide = makeSlide(4000, 3, 200, 200, 8);
+        for (double& t_s : slide.blocks[0].t_s) t_s *= rate;
+        expectAnyBlockSize(slide);
+    }
+}
+
 TEST(BlockSize, AResetChainIsANewOne) {
     const auto slide = damaged(3);
     auto chain = RoughnessChain::create(slide.streams, {});

@@ -134,10 +134,11 @@ static void transform_windows(struct te_state* state) {
         const struct te_window window = a->windows[a->window_front];
         const uint32_t whole = window.first + a->length;
         const uint32_t held = a->end - window.first;
+        const int divided = (int32_t)(a->normalised - whole) >= 0;
         if (held < a->length) return;
-        if ((int32_t)(a->normalised - whole) < 0) {
+        if (!divided || te_known_ns(state) < end_of(state, window.begin_ns)) {
             if (held + a->hop < TE_RING && a->window_count + 1U < TE_WINDOWS) return;
-            te_normalise(state, 1, whole);
+            if (!divided) te_normalise(state, 1, whole);
         }
         transform(state, &window);
         a->window_front = (a->window_front + 1U) % TE_WINDOWS;
