@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/cli/Command.h"
+#include "app/cli/EncoderOptions.h"
 #include "app/cli/Say.h"
 #include "app/cli/SensorCompare.h"
 #include "app/cli/TextTable.h"
@@ -95,6 +96,7 @@ void declareSensor(QCommandLineParser& parser) {
          "20 s, a recording to its end).",
          "S"});
     parser.addOption({"profile", "compare: profile to use instead of the shipped one.", "F"});
+    declareEncoderOptions(parser);
     parser.addOption({"json", "Prints one JSON value."});
 }
 
@@ -207,7 +209,8 @@ int runSensor(const QCommandLineParser& parser) {
     if (!compares && given.front() != "status")
         return usage(
             fmt::format("sensor: there is no \"{}\"; status or compare is expected", given.front().toStdString()));
-    if (!compares && parser.isSet("profile")) return usage("sensor status: --profile is for compare");
+    if (!compares && (parser.isSet("profile") || encoderOptionsGiven(parser)))
+        return usage("sensor status: --profile, --load and what the board drives are for compare");
     if (!compares && given.size() > 2)
         return usage(
             fmt::format("sensor status: one URI is expected, and \"{}\" is a second one", given.at(2).toStdString()));
@@ -238,7 +241,9 @@ int runSensor(const QCommandLineParser& parser) {
 }  // namespace
 
 const Command kSensor{
-    "sensor", "{status [URI] [--seconds S] [--json] | compare RECORDING|URI [--profile F] [--seconds S] [--json]}",
+    "sensor",
+    "{status [URI] [--seconds S] [--json] | compare RECORDING|URI [--profile F] [--load OHM [--device URI] "
+    "[--source KIND] [--largest X] [--step X]] [--seconds S] [--json]}",
     "A sensor board by hand: its identity, settings, calibration, rates, clock drift and losses; its "
     "own encoder beside the bench's",
     declareSensor, runSensor};

@@ -6,6 +6,7 @@
 
 #include "app/cli/CaptureOptions.h"
 #include "app/cli/Command.h"
+#include "app/cli/EncoderOptions.h"
 #include "app/cli/TextTable.h"
 #include "app/cli/Verdicts.h"
 #include "app/run/AllDrivers.h"
@@ -40,8 +41,8 @@ Result<DeviceUri> addressOf(const std::string& text) {
 }
 
 /// Lets both sides take what comes for `seconds`, or until nothing more comes or Ctrl+C is pressed.
-Result<Compared> compareOn(const DeviceUri& uri, const Profile& profile, const std::vector<LimitSet>& limits,
-                           double seconds, const SignalStop& interrupts) {
+Result<Compared> compareOn(const DeviceUri& uri, const Profile& profile, EncoderOutput output,
+                           const std::vector<LimitSet>& limits, double seconds, const SignalStop& interrupts) {
     auto registry = allDrivers()();
     const auto isVirtual = registry.allVirtual({&uri, 1});
     if (!isVirtual) return failure(isVirtual);
@@ -50,7 +51,6 @@ Result<Compared> compareOn(const DeviceUri& uri, const Profile& profile, const s
     const Clock& clock = *isVirtual ? static_cast<const Clock&>(simulated) : steady;
     auto devices = registry.open({&uri, 1}, {Role::Sensor}, OpenContext{clock});
     if (!devices) return failure(devices);
-    auto output = idealOutput();
     output.ceilings = profile.ceilings;
     auto comparison = EncoderComparison::create(*devices->sensor, profile, output, limits, clock);
     if (!comparison) return failure(comparison);
@@ -96,11 +96,21 @@ int compareSensor(const QCommandLineParser& parser, double seconds) {
     if (!uri) return couldNotRun(uri.error());
     const auto profile = profileOption(parser);
     if (!profile) return couldNotRun(profile.error());
+    EncoderOutput output = idealOutput();
+    if (encoderOptionsGiven(parser)) {
+        const auto bench = encoderBench(parser);
+        if (!bench) {
+            const bool wrong = bench.error().code == ErrorCode::InvalidArgument;
+            return wrong ? usage("sensor compare: " + bench.error().message) : couldNotRun(bench.error());
+        }
+        if (!bench->streams.empty()) return usage("sensor compare: --device is the address of a stimulator");
+        output = bench->output;
+    }
     const auto limits = shippedLimits();
     if (!limits) return couldNotRun(limits.error());
     const bool endless = uri->scheme != "recording";
     const SignalStop interrupts;
-    const auto compared = compareOn(*uri, *profile, limits->sets, endless ? seconds : 1e9, interrupts);
+    const auto compared = compareOn(*uri, *profile, output, limits->sets, endless ? seconds : 1e9, interrupts);
     if (!compared) return couldNotRun(compared.error());
     const auto& found = compared->found;
     if (parser.isSet("json")) {

@@ -300,8 +300,11 @@ Result<std::unique_ptr<EncoderComparison>> EncoderComparison::create(TactileSens
     if (board != nullptr && !board->encoder()) board = nullptr;
     if (board != nullptr && board->encoder()->hash != encoder->hash) {
         return fail(ErrorCode::Unsupported,
-                    "the profile in the encoder of {} has the hash {:08x}; {:08x}, of \"{}\", was expected",
-                    sensor.identity().name, board->encoder()->hash, encoder->hash, profile.name);
+                    "the profile in the encoder of {} has the hash {:08x}; {:08x}, of \"{}\" for a {} source of up to "
+                    "{:g} {} into {:g} ohm, was expected",
+                    sensor.identity().name, board->encoder()->hash, encoder->hash, profile.name,
+                    output.source.drive == Drive::Current ? "current" : "voltage", output.source.amplitudeMax,
+                    amplitudeUnit(output.source.drive), output.load.nominal.series.value());
     }
     if (board != nullptr) board->keepBoardTime();
     auto state = std::make_unique<State>(sensor, board, clock, output, profile.encoding, *encoder);

@@ -354,7 +354,10 @@ Result<void> SensorBoard::askToEncode(Encodes wanted) {
         return fail(ErrorCode::Device, "its encoder does not begin: {}",
                     state->refusal == TE_ACCEPTED ? std::string("it stays off, and gives no reason")
                     : state->refusal <= TE_METER
-                        ? fmt::format("the profile in it has {}", wordsOf(static_cast<te_refusal>(state->refusal)))
+                        ? fmt::format("the profile in it has {}{}", wordsOf(static_cast<te_refusal>(state->refusal)),
+                                      state->refusal == TE_BAD_STREAM
+                                          ? ", with the rates and channels that the board's sensors have now"
+                                          : "")
                         : fmt::format("it gives reason {}, which is not known here", state->refusal));
     }
     encoder_ = BoardEncoder{wanted == Encodes::Drives, state->hash};

@@ -71,6 +71,11 @@ public:
             found.push_back(identityOf(kind, {"sim", std::string(kind.path), {}}, 1));
             found.back().serial = "SIM";
         }
+        if (boards_) {
+            found.push_back(identityOf(kinds().front(), {"sim", "board", {}}, 1));
+            found.back().name = "simulated sensor board";
+            found.back().serial = "SIM";
+        }
         return found;
     }
 

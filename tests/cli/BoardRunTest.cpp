@@ -65,7 +65,43 @@ TEST(SensorCompare, ComparesWhatABoardSends) {
     const auto bytes = desk.at("board.bin");
     const auto shipped = (sourceDir() / "resources" / "encodings" / "default.json").string();
     ASSERT_EQ(desk.run({"firmware-profile", shipped, "--load", "500", "--out", bytes}).code, 0);
-    expectRefused(desk.run({"sensor", "compare", "sim:board?profile=" + bytes}), 3, {"hash", "was expected"});
+    expectRefused(desk.run({"sensor", "compare", "sim:board?profile=" + bytes}), 3,
+                  {"hash", "voltage source of up to 60 V into 1000 ohm, was expected"});
+}
+
+TEST(SensorCompare, JudgesABoardForItsOwnLoadAndStimulator) {
+    RecordProperty("hazard", "H1");
+    const Desk desk;
+    const auto shipped = (sourceDir() / "resources" / "encodings" / "default.json").string();
+    for (const std::vector<std::string>& bench :
+         {std::vector<std::string>{"--load", "500", "--device", "sim:stimulator?mode=current&step=0.1mA"},
+          {"--load", "700", "--source", "current", "--largest", "80", "--step", "0.25"},
+          {"--load", "700"}}) {
+        const auto bytes = desk.at("board.bin");
+        std::vector<std::string> writes{"firmware-profile", shipped, "--out", bytes};
+        writes.insert(writes.end(), bench.begin(), bench.end());
+        ASSERT_EQ(desk.run(writes).code, 0);
+        std::vector<std::string> compares{"sensor", "compare", "sim:board?material=P120&profile=" + bytes, "--json"};
+        compares.insert(compares.end(), bench.begin(), bench.end());
+        const auto ran = desk.run(compares);
+        ASSERT_EQ(ran.code, 0) << ran.err;
+        EXPECT_EQ(jsonOf(ran)["verdict"], "pass");
+        compares.at(compares.size() - bench.size() + 1) = "400";
+        expectRefused(desk.run(compares), 3, {"hash", "into 400 ohm, was expected"});
+    }
+    expectRefused(desk.run({"sensor", "compare", "sim:board", "--device", "sim:stimulator"}), 2, {"--load is missing"});
+    expectRefused(desk.run({"sensor", "compare", "sim:board", "--load", "500", "--device", "sim:finger"}), 2,
+                  {"--device", "stimulator"});
+    expectRefused(desk.run({"sensor", "status", "--load", "500"}), 2, {"--load", "compare"});
+}
+
+TEST(Devices, ListTheSimulatedBoard) {
+    const Desk desk;
+    const auto devices = jsonOf(desk.run({"devices", "--json"}));
+    const auto board = std::ranges::find_if(devices, [](const auto& one) { return one["uri"] == "sim:board"; });
+    ASSERT_NE(board, devices.end());
+    EXPECT_EQ((*board)["kind"], "sensor");
+    EXPECT_EQ((*board)["simulated"], true);
 }
 
 TEST(RunOnABoard, ItsTrainsAreDeliveredAsOurOwnWouldBe) {

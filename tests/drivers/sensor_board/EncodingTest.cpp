@@ -84,6 +84,8 @@ TEST(SensorBoardEncoding, ABoardThatCannotIsRefusedInOneSentence) {
     without.highestVersion = 2;
     EXPECT_THAT(refusal(without), refusedSaying("refuses SET_ENCODER: it does not know this command"));
     EXPECT_THAT(refusal(encoding(0, 2)), refusedSaying("profiles of layout 2; 1 was expected"));
+    EXPECT_THAT(refusal(encoding(TE_BAD_STREAM)),
+                refusedSaying("are accepted, with the rates and channels that the board's sensors have now"));
     EXPECT_THAT(refusal(encoding(TE_BAD_HASH)), refusedSaying("the profile in it has the hash of another content"));
 }
 
