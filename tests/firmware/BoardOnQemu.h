@@ -7,18 +7,26 @@
 
 namespace tacto::test {
 
-[[nodiscard]] inline te_profile profileOnQemu() {
+[[nodiscard]] inline EncoderOutput outputOnQemu() {
     EncoderOutput output;
     output.source.amplitudeMax = 100;
     output.load = LoadRange::declared(Load::resistor(Ohms(1000)));
+    return output;
+}
+
+[[nodiscard]] inline EncodingProfile encodingOnQemu() {
+    EncodingProfile encoding;
+    encoding.train.pulses = 3;
+    encoding.train.rate = Hertz(200);
+    return encoding;
+}
+
+[[nodiscard]] inline te_profile profileOnQemu() {
     const std::vector<StreamInfo> streams{
         {StreamKind::Acceleration, StreamUnit::MetrePerSecondSquared, 3, 4000, "acceleration"},
         {StreamKind::Force, StreamUnit::Newton, 1, 200, "force"},
         {StreamKind::Taxels, StreamUnit::Pascal, 8, 200, "taxels"}};
-    EncodingProfile encoding;
-    encoding.train.pulses = 3;
-    encoding.train.rate = Hertz(200);
-    return encoderProfile(streams, {}, encoding, output).value();
+    return encoderProfile(streams, {}, encodingOnQemu(), outputOnQemu()).value();
 }
 
 }  // namespace tacto::test

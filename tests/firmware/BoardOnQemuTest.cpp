@@ -11,6 +11,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "app/run/EncoderComparison.h"
 #include "core/devices/Device.h"
 #include "drivers/sciencemode/TtyTransport.h"
 #include "drivers/sensor_board/Fields.h"
@@ -20,6 +21,7 @@
 #include "tests/drivers/sensor_board/BoardOnPty.h"
 #include "tests/firmware/BoardOnQemu.h"
 #include "tests/support/InTime.h"
+#include "tests/support/Limits.h"
 #include "tests/support/OtherProgram.h"
 #include "tests/support/Refused.h"
 
@@ -105,17 +107,24 @@ private:
     int held_ = -1;
 };
 
-/// Opens a board by its path, as the programs do, and reads until it gave 4000 samples of acceleration.
-template <class Board>
-void expectIsRead(const Board& board) {
-    const SteadyClock clock;
+/// Opens a board by its path, as the programs do.
+Result<DeviceSet> openedAt(const std::string& path, const std::string& more, const Clock& clock) {
     // Keeps the computer's own USB out of this test.
     const auto driver = makeSensorBoardDriver(
         makeUsbSensorBoards([] { return fail(ErrorCode::Io, "no USB here"); }, sciencemode::TtyTransport::open));
     DeviceSet devices;
-    const auto opened =
-        driver->open(*DeviceUri::parse("sensor:?emulated=yes&tty=" + board.path()), {}, {clock}, devices);
+    const auto uri = DeviceUri::parse("sensor:?emulated=yes&tty=" + path + more);
+    if (const auto opened = driver->open(*uri, {}, {clock}, devices); !opened) return failure(opened);
+    return devices;
+}
+
+/// Reads until a board gave 4000 samples of acceleration.
+template <class Board>
+void expectIsRead(const Board& board) {
+    const SteadyClock clock;
+    const auto opened = openedAt(board.path(), "", clock);
     ASSERT_IN_TIME(opened) << opened.error().message;
+    const auto& devices = *opened;
     std::vector<SampleBlock> blocks(devices.sensor->streams().size());
     ASSERT_EQ(blocks.size(), 3U);
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
@@ -201,6 +210,29 @@ TEST(BoardOnQemu, IsReadAsAnEmulatedBoardIs) {
     const SteadyClock clock;
     expectIsRead(BoardOnPty(clock));
     expectIsRead(BoardOnQemu());
+}
+
+TEST(BoardOnQemu, AgreesWithTheBenchThroughItsLine) {
+    if (std::string_view(TACTO_WHOLE_BOARD).empty()) GTEST_SKIP() << kNoBoard;
+    RecordProperty("hazard", "H1");
+    const BoardOnQemu board;
+    const SteadyClock clock;
+    const auto devices = openedAt(board.path(), "&encodes=shown", clock);
+    ASSERT_IN_TIME(devices) << devices.error().message;
+    Profile profile;
+    profile.encoding = encodingOnQemu();
+    const auto comparison = EncoderComparison::create(*devices->sensor, profile, outputOnQemu(), limitSets(), clock);
+    ASSERT_TRUE(comparison) << comparison.error().message;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while ((*comparison)->board().trains.size() < 4 && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(EncoderComparison::kTurn);
+        ASSERT_IN_TIME((*comparison)->turn());
+    }
+    const auto found = (*comparison)->agreement();
+    EXPECT_IN_TIME(found.lost == 0U);
+    EXPECT_IN_TIME(found.trains >= 3U);
+    EXPECT_TRUE(found.holds()) << found.unlike << "; R " << found.maxR << ", P " << found.maxP << ", onset "
+                               << found.maxOnset_s << " s, amplitude " << found.maxAmplitude;
 }
 
 TEST(BoardOnQemu, EncodesItsSamplesToTheBitsThatTheSameCodeMakesHere) {
