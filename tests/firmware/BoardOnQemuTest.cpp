@@ -1,111 +1,28 @@
-// A whole board as its maker compiles it for a Cortex-M, under QEMU behind a pseudo-terminal: it passes what an
-// emulated board passes there, and its encoder makes of its samples what the same code makes of them here, to the last
-// bit.
-#include <algorithm>
+// A whole board as its maker compiles it for a Cortex-M, under QEMU behind a pseudo-terminal: its encoder makes of its
+// samples what the same code makes of them here, to the last bit. What it passes as any board: BoardAtTerminalTest.cpp.
 #include <bit>
-#include <cmath>
-#include <fcntl.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
-#include <thread>
-#include <unistd.h>
 
 #include "app/run/EncoderComparison.h"
 #include "core/devices/Device.h"
-#include "drivers/sciencemode/TtyTransport.h"
 #include "drivers/sensor_board/Fields.h"
-#include "drivers/sensor_board/Messages.h"
 #include "drivers/sensor_board/UsbSensorBoards.h"
 #include "resources/firmware/sensor_board/tsb_board.h"
-#include "tests/drivers/sensor_board/BoardOnPty.h"
-#include "tests/firmware/BoardOnQemu.h"
+#include "tests/firmware/BoardAtTerminal.h"
+#include "tests/firmware/ProfileOnQemu.h"
 #include "tests/support/InTime.h"
 #include "tests/support/Limits.h"
-#include "tests/support/OtherProgram.h"
-#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
 
 using namespace sensorboard;
+using sensorboard::Command;
 
 constexpr const char* kNoBoard =
     "gcc-arm-none-eabi, libnewlib-arm-none-eabi and qemu-system-arm are not all here: the board was not run as a "
     "microcontroller runs it";
-
-struct Told {
-    std::uint8_t type = 0;
-    std::vector<std::uint8_t> payload;
-};
-
-/// A host that speaks to a board by frames alone.
-class PlainHost {
-public:
-    explicit PlainHost(const std::string& path) : line_(accepted(sciencemode::TtyTransport::open(path))) {}
-
-    void send(std::uint8_t version, std::uint8_t type, std::initializer_list<std::uint8_t> payload) {
-        tsb_writer writer{};
-        std::array<std::uint8_t, TSB_FRAME_MOST> frame{};
-        tsb_begin(&writer, frame.data(), version, type);
-        for (const auto byte : payload) tsb_put_u8(&writer, byte);
-        accepted(line_->write(std::span(frame).first(tsb_seal(&writer)), Seconds(1)));
-    }
-    /// Adds all frames to `told` until one is of `type`, or for `most`.
-    [[nodiscard]] bool hear(std::uint8_t type, std::vector<Told>& told, Seconds most = Seconds(20)) {
-        std::array<std::uint8_t, 4096> bytes{};
-        const auto end = std::chrono::steady_clock::now() + toInstant(most);
-        while (std::chrono::steady_clock::now() < end) {
-            const auto read = line_->read(bytes, Seconds(0.1));
-            std::span<const std::uint8_t> left = std::span(bytes).first(read.value_or(0));
-            bool found = false;
-            while (const auto frame = decoder_.take(left)) {
-                told.push_back({frame->type, {frame->payload.begin(), frame->payload.end()}});
-                found = found || frame->type == type;
-            }
-            if (found) return true;
-        }
-        return false;
-    }
-    [[nodiscard]] const LineCounts& counts() const { return decoder_.counts(); }
-
-private:
-    std::unique_ptr<Transport> line_;
-    FrameDecoder decoder_;
-};
-
-/// A board on a machine of QEMU; its clock is that of this computer.
-class BoardOnQemu {
-public:
-    BoardOnQemu()
-        : qemu_({TACTO_ARM_QEMU, "-M", "mps2-an386", "-kernel", TACTO_WHOLE_BOARD, "-nographic", "-monitor", "none",
-                 "-serial", "pty"}) {
-        const auto said = accepted(toResult(qemu_.readLine()));
-        const auto begin = said.find("/dev/pts/");
-        path_ = said.substr(begin, said.find(' ', begin) - begin);
-        // QEMU looks once a second whether anybody holds the terminal; until then it hears nothing.
-        held_ = open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
-        PlainHost host(path_);
-        std::vector<Told> told;
-        for (int asked = 0; asked < 100 && told.empty(); ++asked) {
-            host.send(TSB_VERSION, TSB_HELLO, {1});
-            static_cast<void>(host.hear(TSB_IDENTITY, told, Seconds(0.2)));
-        }
-    }
-    ~BoardOnQemu() { close(held_); }
-    BoardOnQemu(const BoardOnQemu&) = delete;
-    BoardOnQemu& operator=(const BoardOnQemu&) = delete;
-    [[nodiscard]] const std::string& path() const noexcept { return path_; }
-
-private:
-    static Result<std::string> toResult(const std::optional<std::string>& line) {
-        if (line && line->find("/dev/pts/") != std::string::npos) return *line;
-        return fail(ErrorCode::Io, "QEMU says \"{}\"; the path of its terminal was expected", line.value_or(""));
-    }
-    HostProcess qemu_;
-    std::string path_;
-    int held_ = -1;
-};
 
 /// Opens a board by its path, as the programs do.
 Result<DeviceSet> openedAt(const std::string& path, const std::string& more, const Clock& clock) {
@@ -116,26 +33,6 @@ Result<DeviceSet> openedAt(const std::string& path, const std::string& more, con
     const auto uri = DeviceUri::parse("sensor:?emulated=yes&tty=" + path + more);
     if (const auto opened = driver->open(*uri, {}, {clock}, devices); !opened) return failure(opened);
     return devices;
-}
-
-/// Reads until a board gave 4000 samples of acceleration.
-template <class Board>
-void expectIsRead(const Board& board) {
-    const SteadyClock clock;
-    const auto opened = openedAt(board.path(), "", clock);
-    ASSERT_IN_TIME(opened) << opened.error().message;
-    const auto& devices = *opened;
-    std::vector<SampleBlock> blocks(devices.sensor->streams().size());
-    ASSERT_EQ(blocks.size(), 3U);
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (blocks[0].samples() < 4000 && std::chrono::steady_clock::now() < end) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        ASSERT_IN_TIME(devices.sensor->read(blocks));
-    }
-    EXPECT_IN_TIME(blocks[0].samples() >= 4000U);
-    EXPECT_IN_TIME(dynamic_cast<ReportingDevice&>(*devices.sensor).deviceReport().losses == 0U);
-    for (const auto& block : blocks)
-        EXPECT_TRUE(std::is_sorted(block.t_s.begin(), block.t_s.end(), std::less_equal<>()));
 }
 
 /// The encoder here, fed with the blocks that the board sent.
@@ -205,17 +102,10 @@ void expectWithin(FieldReader& in, const te_profile& profile, std::uint64_t& ons
 
 }  // namespace
 
-TEST(BoardOnQemu, IsReadAsAnEmulatedBoardIs) {
-    if (std::string_view(TACTO_WHOLE_BOARD).empty()) GTEST_SKIP() << kNoBoard;
-    const SteadyClock clock;
-    expectIsRead(BoardOnPty(clock));
-    expectIsRead(BoardOnQemu());
-}
-
 TEST(BoardOnQemu, AgreesWithTheBenchThroughItsLine) {
     if (std::string_view(TACTO_WHOLE_BOARD).empty()) GTEST_SKIP() << kNoBoard;
     RecordProperty("hazard", "H1");
-    const BoardOnQemu board;
+    const QemuAtTerminal board;
     const SteadyClock clock;
     const auto devices = openedAt(board.path(), "&encodes=shown", clock);
     ASSERT_IN_TIME(devices) << devices.error().message;
@@ -238,32 +128,26 @@ TEST(BoardOnQemu, AgreesWithTheBenchThroughItsLine) {
 TEST(BoardOnQemu, EncodesItsSamplesToTheBitsThatTheSameCodeMakesHere) {
     if (std::string_view(TACTO_WHOLE_BOARD).empty()) GTEST_SKIP() << kNoBoard;
     RecordProperty("hazard", "H7");
-    BoardOnQemu board;
-    PlainHost host(board.path());
-    std::vector<Told> told;
-    host.send(TSB_VERSION_2, TSB_SET_ENCODER, {2, TSB_MODE_ENCODE});
-    ASSERT_IN_TIME(host.hear(TSB_ENCODER, told));
+    TerminalRig rig(std::make_unique<QemuAtTerminal>());
+    PlainHost host(rig);
     const te_profile profile = profileOnQemu();
-    FieldReader encoder(told.back().payload);
-    EXPECT_EQ(encoder.u8(), 2);
-    EXPECT_EQ(encoder.u8(), TSB_MODE_ENCODE);
-    EXPECT_EQ(encoder.u8(), TE_ACCEPTED);
-    EXPECT_EQ(encoder.u32(), TE_LAYOUT);
-    EXPECT_EQ(encoder.u32(), profile.hash);
-    told.clear();
-    host.send(TSB_VERSION, TSB_START, {3});
-    for (int trains = 0; trains < 3; ++trains) ASSERT_IN_TIME(host.hear(TSB_TRAIN, told));
-    host.send(TSB_VERSION, TSB_STOP, {4});
-    ASSERT_IN_TIME(host.hear(TSB_DONE, told));
+    const auto state = accepted(readEncoder(host.ask(Command::SetEncoder, {TSB_MODE_ENCODE}).frame()));
+    EXPECT_TRUE(state.encodes);
+    EXPECT_EQ(state.refusal, TE_ACCEPTED);
+    EXPECT_EQ(state.layout, TE_LAYOUT);
+    EXPECT_EQ(state.hash, profile.hash);
+    static_cast<void>(host.ask(Command::Start));
+    ASSERT_IN_TIME(host.hear(Reply::Train, 3));
+    static_cast<void>(host.ask(Command::Stop));
 
     EncoderHere here;
     std::map<int, std::uint32_t> seen;
     std::uint64_t onset_us = 0;
-    for (const auto& one : told) {
+    for (const auto& one : host.told) {
         FieldReader in(one.payload);
         const auto number = seen[one.type]++;
         if (one.type == TSB_DATA) here.take(one.payload);
-        if (one.type != TSB_READING && one.type != TSB_TRAIN && one.type != TSB_SILENT) continue;
+        if (one.type != TSB_READING && one.type != TSB_TRAIN) continue;
         EXPECT_EQ(in.u32(), number);
         if (one.type == TSB_TRAIN) expectWithin(in, profile, onset_us);
         if (one.type != TSB_READING) continue;

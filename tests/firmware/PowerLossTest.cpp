@@ -8,7 +8,7 @@
 #include <iostream>
 #include <map>
 
-#include "tests/firmware/BoardOnQemu.h"
+#include "tests/firmware/ProfileOnQemu.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {

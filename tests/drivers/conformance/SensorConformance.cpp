@@ -53,7 +53,7 @@ TEST_P(SensorConformance, StampsRiseAndAreNeverAheadOfTheClock) {
     RecordProperty("hazard", "H7");
     collect(Seconds(1), Seconds(0.02));
     for (const auto& block : blocks_) {
-        ASSERT_GT(block.samples(), 1U);
+        ASSERT_IN_TIME(block.samples() > 1U);
         EXPECT_TRUE(std::is_sorted(block.t_s.begin(), block.t_s.end(), std::less_equal<>()));
         EXPECT_LE(block.t_s.back(), toSeconds(rig_->clock().now()) + 1e-6);
     }
@@ -63,9 +63,10 @@ TEST_P(SensorConformance, RatesAreThoseDeclared) {
     collect(Seconds(1), Seconds(0.05));
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
         const auto& t = blocks_[i].t_s;
-        ASSERT_GT(t.size(), 2U);
+        ASSERT_IN_TIME(t.size() > 2U);
         const double rate = static_cast<double>(t.size() - 1) / (t.back() - t.front());
-        EXPECT_NEAR(rate, device().streams()[i].rate_hz, 0.02 * device().streams()[i].rate_hz);
+        // A board whose line was not read in time drops blocks.
+        EXPECT_IN_TIME(std::abs(rate / device().streams()[i].rate_hz - 1) <= 0.02) << rate << " Hz";
     }
 }
 
@@ -75,7 +76,7 @@ TEST_P(SensorConformance, GivesEachSampleOnce) {
     ASSERT_TRUE(device().read(again).has_value());
     for (std::size_t i = 0; i < again.size(); ++i) {
         if (again[i].samples() == 0) continue;
-        ASSERT_GT(blocks_[i].samples(), 0U);
+        ASSERT_IN_TIME(blocks_[i].samples() > 0U);
         EXPECT_GT(again[i].t_s.front(), blocks_[i].t_s.back());
     }
 }
@@ -84,7 +85,7 @@ TEST_P(SensorConformance, AppendsToWhatIsThere) {
     blocks_[0].t_s.assign(1, -1);
     blocks_[0].values.assign(device().streams()[0].channels, 7);
     collect(Seconds(0.1), Seconds(0.02));
-    ASSERT_GT(blocks_[0].samples(), 1U);
+    ASSERT_IN_TIME(blocks_[0].samples() > 1U);
     EXPECT_EQ(blocks_[0].t_s.front(), -1);
     EXPECT_EQ(blocks_[0].values.front(), 7);
 }

@@ -1,15 +1,18 @@
-// Runs the suite that every tactile sensor must pass on the sensor board.
+// Runs what every tactile sensor and every sensor board must pass on the emulated board.
+#include "resources/firmware/tactile_encoder/tactile_encoder.h"
 #include "tests/drivers/conformance/SensorConformance.h"
+#include "tests/drivers/sensor_board/BoardConformance.h"
 #include "tests/drivers/sensor_board/SensorBoardBench.h"
+#include "tests/support/Refused.h"
 
 namespace tacto::test {
 namespace {
 
 using namespace sensorboard;
 
-class BoardRig final : public SensorRig {
+class EmulatedSensorRig final : public SensorRig {
 public:
-    BoardRig(const EmulatedBoardSettings& settings, bool finger) {
+    EmulatedSensorRig(const EmulatedBoardSettings& settings, bool finger) {
         if (finger) {
             bench_.line = std::make_shared<EmulatedBoardLine>(bench_.clock, &bench_.clock, settings);
         } else {
@@ -31,7 +34,8 @@ private:
 };
 
 SensorKind kind(const char* name, EmulatedBoardSettings settings, bool finger = false) {
-    return {name, [settings = std::move(settings), finger] { return std::make_unique<BoardRig>(settings, finger); }};
+    return {name,
+            [settings = std::move(settings), finger] { return std::make_unique<EmulatedSensorRig>(settings, finger); }};
 }
 
 EmulatedBoardSettings drifting() {
@@ -62,6 +66,28 @@ INSTANTIATE_TEST_SUITE_P(SensorBoard, SensorConformance,
                          testing::Values(kind("Counting", {}), kind("Finger", {}, true), kind("Drifting", drifting()),
                                          kind("LosingBlocks", losing()), kind("Slow", slow())),
                          [](const testing::TestParamInfo<SensorKind>& of) { return of.param.name; });
+
+class EmulatedBoardRig final : public BoardRig {
+public:
+    EmulatedBoardRig() {
+        EmulatedBoardSettings settings;
+        settings.highestVersion = 2;
+        settings.encoder = tsb_encoder{0, 0, TE_LAYOUT, 1};
+        bench_.line = std::make_shared<EmulatedBoardLine>(bench_.clock, &bench_.clock, settings);
+        line_ = accepted(bench_.line->connect());
+    }
+    Transport& line() override { return *line_; }
+    const Clock& clock() const override { return bench_.clock; }
+    void wait(Seconds duration) override { bench_.clock.advanceTo(bench_.clock.now() + toInstant(duration)); }
+
+private:
+    SensorBoardBench bench_;
+    std::unique_ptr<Transport> line_;
+};
+
+INSTANTIATE_TEST_SUITE_P(SensorBoard, BoardConformance,
+                         testing::Values(BoardKind{"Emulated", [] { return std::make_unique<EmulatedBoardRig>(); }}),
+                         [](const testing::TestParamInfo<BoardKind>& of) { return of.param.name; });
 
 }  // namespace
 }  // namespace tacto::test

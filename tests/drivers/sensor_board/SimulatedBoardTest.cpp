@@ -9,6 +9,7 @@
 #include "drivers/sensor_board/SimulatedBoard.h"
 #include "drivers/simulated/SimulatedDriver.h"
 #include "tests/drivers/conformance/SensorConformance.h"
+#include "tests/drivers/sensor_board/BoardConformance.h"
 #include "tests/support/Support.h"
 
 namespace tacto::test {
@@ -60,6 +61,29 @@ te_profile profileFor(const TactileSensor& sensor, double amplitudeMax = 40) {
     encoding.amplitudeMax = Volts(amplitudeMax);
     return encoderProfile(sensor.streams(), {}, encoding, output, sensor.identity().serial).value();
 }
+
+class FirmwareRig final : public BoardRig {
+public:
+    FirmwareRig() {
+        auto finger = opened("sim:finger?material=P120&force=2N", clock_).value().sensor;
+        const auto profile = profileFor(*finger);
+        const auto board = sensorboard::FirmwareBoard::make(std::move(finger), "EMU-1", "1", clock_, 0).value();
+        board->restart(&profile);
+        line_ = board->line();
+    }
+    Transport& line() override { return *line_; }
+    const Clock& clock() const override { return clock_; }
+    void wait(Seconds duration) override { clock_.advanceTo(clock_.now() + toInstant(duration)); }
+
+private:
+    VirtualClock clock_;
+    std::unique_ptr<Transport> line_;
+};
+
+const auto kFirmware = testing::Values(BoardKind{"FirmwareHere", [] { return std::make_unique<FirmwareRig>(); }});
+std::string boardName(const testing::TestParamInfo<BoardKind>& of) { return of.param.name; }
+INSTANTIATE_TEST_SUITE_P(SimulatedBoard, BoardConformance, kFirmware, boardName);
+INSTANTIATE_TEST_SUITE_P(SimulatedBoard, EncodingBoardConformance, kFirmware, boardName);
 
 /// A board on a finger of the virtual clock, read every 2 ms.
 class SimBoard : public testing::Test {

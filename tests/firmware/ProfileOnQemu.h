@@ -1,4 +1,4 @@
-// BoardOnQemu.h - the profile of the board that runs under QEMU (resources/firmware/tactile_board/mps2.c).
+// ProfileOnQemu.h - the profile of the board that runs under QEMU (resources/firmware/tactile_board/mps2.c).
 //
 // Thread-safety: pure.
 #pragma once
