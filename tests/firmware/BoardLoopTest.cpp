@@ -147,6 +147,8 @@ protected:
     bool deaf_ = false, plays_ = true, feels_ = true;
     std::vector<tb_samples> given_;  // all blocks that the board read
     std::uint32_t lost_ = 0;         // of the next block of acceleration
+    std::function<void(tb_samples&)> spoil_;
+    Random random_{11, "board loop"};
 
 private:
     static TactileBoard& of(void* self) { return *static_cast<TactileBoard*>(self); }
@@ -180,6 +182,7 @@ private:
             made.first_us = now_us_ - (count - 1U) * interval_us;
             made.interval_ns = interval_us * 1000;
             for (int i = 0; i < count * setup_.configuration[stream].columns; ++i) made.raw[i] = value(i);
+            if (spoil_) spoil_(made);
             felt_.push_back(made);
         };
         block(0, 10, 1000, [&](int) { return noise(touches ? 200 : 4); });
@@ -188,7 +191,6 @@ private:
         block(2, 1, 10'000, [&](int i) { return 250 + noise(3) + (touches ? 1500 + 150 * i : 0); });
     }
 
-    Random random_{11, "board loop"};
     std::vector<tb_samples> felt_;
     std::vector<std::uint8_t> toBoard_, said_;
     FrameDecoder decoder_;
@@ -500,6 +502,80 @@ TEST_F(TactileBoard, IsSilentOnceItIsStopped) {
     EXPECT_GE(heard(TSB_TRAIN).size(), 1U) << "a host starts it again";
 }
 
+TEST_F(TactileBoard, IsSilentWhileASensorIsPulledOut) {
+    RecordProperty("hazard", "H7");
+    // Of 12 bits, acceleration with its zero in the middle; force reads 0 untouched.
+    const std::array<tb_range, 3> range{{{-2040, 2039}, {-20, 4087}, {8, 4087}}};
+    struct Pulled {
+        std::uint8_t stream;
+        int column;  // -1: all
+        std::int32_t code;
+        int noise;  // codes away from that end
+    };
+    for (const auto& [stream, column, code, noise] :
+         {Pulled{0, -1, 2047, 4}, Pulled{0, 1, -2048, 4}, Pulled{0, 0, 32'767, 0}, Pulled{1, 0, 4095, 4},
+          Pulled{2, -1, 4095, 4}, Pulled{2, 3, 0, 4}, Pulled{2, 1, 4095, 0}}) {
+        SCOPED_TRACE(testing::Message() << int{stream} << " column " << column << " reads " << code);
+        const auto pull = [&](tb_samples& block) {
+            const int columns = setup_.configuration[stream].columns;
+            for (int i = 0; block.stream == stream && i < block.count * columns; ++i) {
+                if (column >= 0 && i % columns != column) continue;
+                const auto away = static_cast<std::int32_t>(random_.below(static_cast<std::uint64_t>(noise) + 1));
+                block.raw[i] = code > 0 ? code - away : code + away;
+            }
+        };
+        for (const bool alone : {true, false}) {
+            spoil_ = {};
+            now_us_ = 0;
+            std::ranges::copy(range, setup_.range);
+            if (code == 32'767) setup_.range[stream] = {};
+            setup_.alone = alone ? 1 : 0;
+            begin();
+            if (!alone) startEncoding();
+            const auto trains = [&] {
+                const auto said = heard();
+                const auto played = std::exchange(played_, {}).size();
+                if (alone) return played;
+                for (const auto& one : said) {
+                    if (spoil_ && one.type == TSB_DATA) EXPECT_NE(one.payload.at(0), stream);
+                }
+                return static_cast<std::size_t>(std::ranges::count(said, std::uint8_t{TSB_TRAIN}, &Heard::type));
+            };
+            run(4 * kSecond_us);
+            EXPECT_GE(trains(), 1U);
+            spoil_ = pull;
+            // Pulled for 50 ms, 100 ms old, and a block.
+            run(160'000);
+            played_.clear();
+            heard();
+            run(5 * kSecond_us);
+            EXPECT_EQ(trains(), 0U);
+            EXPECT_EQ(te_fault(&board_->encoder, static_cast<std::int64_t>(now_us_) * 1000), TE_FAULT_STALE);
+            if (!alone) {
+                send(sensorboard::Command::GetStatus);
+                EXPECT_EQ(answer().payload[1], 1U << stream);
+            }
+            spoil_ = {};
+            run(100'000);
+            run(5 * kSecond_us);
+            EXPECT_GE(trains(), 1U) << "it is plugged in again";
+        }
+    }
+}
+
+TEST_F(TactileBoard, SendsWhatReachesAnEndForAMoment) {
+    setup_.range[0] = {-2040, 2039};
+    spoil_ = [&](tb_samples& block) {
+        for (int i = 0; block.stream == 0 && i < 19; ++i) block.raw[i] = now_us_ % 40'000 == 0 ? block.raw[i] : 2047;
+    };
+    begin();
+    send(sensorboard::Command::Start);
+    heard();
+    run(kSecond_us);
+    EXPECT_EQ(board_->samples_lost, 0U);
+    EXPECT_EQ(heard(TSB_DATA).size(), 300U);
+}
+
 TEST_F(TactileBoard, DoesNotEncodeSamplesThatTheProtocolCannotCarry) {
     RecordProperty("hazard", "H7");
     begin();
@@ -534,6 +610,9 @@ TEST_F(TactileBoard, IsNoneWithStreamsThatNoBoardHas) {
                  std::fill_n(s.configuration[1].scale, 2, 1.0F);
              },
              [](auto& s) { s.configuration[2].columns = 1; }, [](auto& s) { s.configuration[1].scale[0] = NAN; },
+             [](auto& s) {
+                 s.range[1] = {1, 0};
+             },
              [](auto& s) { s.configuration[0].stream = 1; }, [](auto& s) { s.configuration[0].rate_mhz = 0; }}) {
         setup_ = sound;
         spoil(setup_);

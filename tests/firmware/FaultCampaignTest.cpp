@@ -19,13 +19,15 @@ namespace {
 constexpr double kLoad_ohm = 1000, kLowest_ohm = 800;
 constexpr float kTicksPerUs = 25;
 constexpr std::uint64_t kRound_us = 10'000;
+constexpr std::int32_t kEnd = 8191;  // of the converters
 
-enum class Flaw { Dropped, Doubled, Shifted, Stuck, Saturated, Late, Jumping, None };
+enum class Flaw { Dropped, Doubled, Shifted, Stuck, Saturated, Pulled, Late, Jumping, None };
 
 /// One flaw of one sensor, or of the clock, for a while.
 struct Spell {
     Flaw flaw = Flaw::None;
     std::uint8_t stream = 0;
+    int column = 0;  // of a stream that is pulled out; one that it does not have: all
     std::uint64_t begin_us = 0, end_us = 0;
 };
 
@@ -47,6 +49,7 @@ public:
         configure(0, TSB_KIND_ACCELERATION, TSB_UNIT_METRE_PER_SECOND_SQUARED, 2, 1'000'000, 0.005F);
         configure(1, TSB_KIND_FORCE, TSB_UNIT_NEWTON, 1, 100'000, 0.001F);
         configure(2, TSB_KIND_TAXELS, TSB_UNIT_PASCAL, 4, 100'000, 2);
+        std::fill_n(setup_.range, 3, tb_range{-kEnd + 8, kEnd - 8});
         setup_.profile = &profile_;
         setup_.alone = 1;
         setup_.rested = 1;
@@ -84,8 +87,9 @@ private:
         std::fill_n(c.scale, columns, scale);
     }
     void draw() {
-        spell_.flaw = random_.below(3) == 0 ? Flaw::None : static_cast<Flaw>(random_.below(7));
+        spell_.flaw = random_.below(3) == 0 ? Flaw::None : static_cast<Flaw>(random_.below(8));
         spell_.stream = static_cast<std::uint8_t>(random_.below(3));
+        spell_.column = static_cast<int>(random_.below(5));
         spell_.begin_us = now_us_;
         spell_.end_us = now_us_ + 50'000 + random_.below(3'000'000);
         if (spell_.flaw == Flaw::Jumping) now_us_ += random_.below(400'000) / 1000 * 1000;
@@ -126,6 +130,13 @@ private:
                 case Flaw::Saturated:
                     for (int i = 0; i < values; ++i) made.raw[i] = made.raw[i] < 0 ? -32'768 : 32'767;
                     break;
+                case Flaw::Pulled:
+                    for (int i = 0; i < values; ++i) {
+                        const int columns = setup_.configuration[stream].columns;
+                        if (i % columns == spell_.column || spell_.column >= columns)
+                            made.raw[i] = kEnd - static_cast<std::int32_t>(random_.below(4));
+                    }
+                    break;
                 case Flaw::Late:
                     due += 20'000 + random_.below(400'000);
                     break;
@@ -141,6 +152,17 @@ private:
         if (found == waiting_.end()) return 0;
         *into = found->second;
         waiting_.erase(found);
+        const int columns = setup_.configuration[into->stream].columns;
+        bool sound = true;
+        for (int column = 0; column < columns; ++column) {
+            bool any = false;
+            for (int i = column; i < into->count * columns; i += columns)
+                any = any || std::abs(into->raw[i]) < kEnd - 7;
+            auto& sound_us = sound_us_[into->stream][static_cast<std::size_t>(column)];
+            if (any) sound_us = now_us_;
+            sound = sound && now_us_ - sound_us <= 50'000;
+        }
+        if (!sound) return 1;
         auto& given_us = given_us_[into->stream];
         given_us = std::max(given_us, into->first_us + (into->count - 1U) * into->interval_ns / 1000);
         return 1;
@@ -178,7 +200,8 @@ private:
         double sum = 0;
         for (const auto& one : delivered_) sum += one.end_s > lastEnd_s_ - 5 ? one.square : 0;
         EXPECT_LT(std::sqrt(sum / 5) * 1e3, rms_mA_) << "more than the ceiling over 5 s";
-        // Silence: no stream is older than 0.1 s, and 10 ms for a block and a step.
+        // Silence: no stream is older than 0.1 s, and 10 ms for a block and a step. One that was pulled out for 50 ms
+        // gives nothing.
         for (const auto at_us : given_us_)
             EXPECT_LE(static_cast<double>(now_us_) - static_cast<double>(at_us), 110'000)
                 << "of a stream that is silent";
@@ -198,6 +221,7 @@ private:
     std::deque<std::pair<std::uint64_t, tb_samples>> waiting_;
     std::array<tb_samples, 3> held_{};
     std::array<std::uint64_t, 3> given_us_{};
+    std::array<std::array<std::uint64_t, 4>, 3> sound_us_{};
     std::vector<Delivered> delivered_;
     double lastOnset_s_ = -1e9, lastEnd_s_ = -1e9;
 };

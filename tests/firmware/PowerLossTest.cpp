@@ -58,8 +58,7 @@ std::size_t expectBeginningOfATrain(const std::vector<Entry>& all, const te_prof
         if (step > 0) {
             const double us = static_cast<double>(train[edges - 1].ticks - edge.ticks) / kClock_MHz;
             EXPECT_GE(us, widths[step - 1] - kLate_us) << "edge " << edges;
-            // Of a gap, within which nothing comes out, QEMU may tell a period late that it is over.
-            if (step != 2) EXPECT_LE(us, widths[step - 1] + kLate_us) << "edge " << edges;
+            EXPECT_LE(us, widths[step - 1] + kLate_us) << "edge " << edges;
         }
         ++edges;
     }

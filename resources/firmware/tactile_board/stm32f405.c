@@ -188,6 +188,7 @@ static struct tb_setup setup = {
           {0}},
          {2, TSB_STREAM_ENABLED, TSB_KIND_FORCE, TSB_UNIT_NEWTON, TSB_FORMAT_INT16, 1, 200000U, {0.005F}, {0}}},
     .calibration = {{.date = "", .reference = ""}, {.date = "", .reference = ""}, {.date = "", .reference = ""}},
+    .range = {{8, 4087}, {0, 4087}, {0, 4087}}, /* untouched, taxels and force may read 0 */
     .profile = &tactile_profile,
     .alone = ALONE,
 };

@@ -189,6 +189,27 @@ static int fits(const struct tb_samples* samples, const struct tsb_configuration
     return 1;
 }
 
+/* Whether a column has read nothing within its range for too long. */
+static int is_pulled(struct tb_board* board, const struct tsb_configuration* c) {
+    const struct tb_samples* const samples = &board->samples;
+    const struct tb_range* const range = &board->setup->range[samples->stream];
+    const int named = range->low != 0 || range->high != 0;
+    const int narrow = c->format == TSB_FORMAT_INT16;
+    const int32_t low = named ? range->low : (narrow ? INT16_MIN : INT32_MIN) + 1;
+    const int32_t high = named ? range->high : (narrow ? INT16_MAX : INT32_MAX) - 1;
+    const uint32_t values = (uint32_t)samples->count * c->columns;
+    const uint64_t now_us = now_of(board);
+    uint64_t* const sound_us = board->sound_us[samples->stream];
+    uint32_t i;
+    for (i = 0; i < values; ++i) {
+        if (samples->raw[i] >= low && samples->raw[i] <= high) sound_us[i % c->columns] = now_us;
+    }
+    for (i = 0; i < c->columns; ++i) {
+        if (now_us > sound_us[i] + TB_PULLED_US) return 1;
+    }
+    return 0;
+}
+
 /* The kinds of the protocol are the streams of the encoder. */
 static void encode_samples(struct tb_board* board, const struct tsb_configuration* c) {
     const struct tb_samples* const samples = &board->samples;
@@ -234,7 +255,7 @@ static void take_samples(struct tb_board* board) {
     if (!(c->flags & TSB_STREAM_ENABLED) || !(board->running || board->alone)) return;
     board->index[samples->stream] += samples->lost;
     board->samples_lost += samples->lost;
-    if (fits(samples, c)) {
+    if (fits(samples, c) && !is_pulled(board, c)) {
         board->heard_us[samples->stream] = now_of(board);
         if (board->running) say_samples(board, c);
         if (encodes(board)) encode_samples(board, c);
@@ -256,11 +277,12 @@ static void done(struct tb_board* board, const struct tsb_command* command) {
 
 static void start(struct tb_board* board) {
     const uint64_t now_us = now_of(board);
-    uint32_t i;
+    uint32_t i, k;
     for (i = 0; i < TB_STREAMS; ++i) {
         board->sequence[i] = 0U;
         board->index[i] = 0U;
         board->heard_us[i] = now_us;
+        for (k = 0; k < TSB_COLUMNS_MOST; ++k) board->sound_us[i][k] = now_us;
     }
     board->samples_lost = 0U;
     board->blocks_dropped = 0U;
@@ -442,7 +464,7 @@ static int can_be(const struct tb_setup* setup) {
     if (setup->streams < 1U || setup->streams > TB_STREAMS) return 0;
     for (i = 0; i < setup->streams; ++i) {
         const struct tsb_configuration* const c = &setup->configuration[i];
-        if (!is_sound(c) || c->stream != i) return 0;
+        if (!is_sound(c) || c->stream != i || setup->range[i].low > setup->range[i].high) return 0;
         for (k = 0; k < i; ++k) {
             if (setup->configuration[k].kind == c->kind) return 0;
         }

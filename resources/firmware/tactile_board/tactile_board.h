@@ -30,6 +30,7 @@ extern "C" {
 #define TB_VALUES 113U       /* in one block: what a frame carries as int16 */
 #define TB_STEP_US 2000U     /* from one question for a train to the next, at least */
 #define TB_SILENT_US 100000U /* a stream that says nothing for so long is called faulty */
+#define TB_PULLED_US 50000U  /* a column that reads nothing sound for so long is pulled out */
 
 /* Consecutive samples of one stream, as its converter gives them. They should span at most 10 ms. */
 struct tb_samples {
@@ -59,12 +60,20 @@ struct tb_hardware {
     int (*play)(void* context, const struct te_train* train);
 };
 
+/* What the columns of a stream read while their sensor is plugged in. Beyond it lie the ends of the converter, with
+ * the noise of an input that is open or shorted: { 8, 4087 } of 12 bits. A sensor that reads 0 at rest has `low` 0.
+ * Both 0: all but the ends of the stream's format. */
+struct tb_range {
+    int32_t low, high;
+};
+
 /* What a board is. Lies where it stays. */
 struct tb_setup {
     const char *name, *serial, *firmware;
     uint8_t streams; /* 1 to TB_STREAMS */
     struct tsb_configuration configuration[TB_STREAMS];
     struct tsb_calibration calibration[TB_STREAMS];
+    struct tb_range range[TB_STREAMS];
     const struct te_profile* profile; /* null: the board does not encode */
     uint8_t alone;                    /* 1: it plays until it hears a host. After a power-on only */
     uint8_t rested; /* 1: nothing came out in the 8 s before tb_init(), as te_rested(). After a power-on only */
@@ -82,7 +91,8 @@ struct tb_board {
     float values[TB_VALUES];
     uint8_t frame[TSB_FRAME_MOST];
     uint32_t sequence[TB_STREAMS], index[TB_STREAMS];
-    uint64_t heard_us[TB_STREAMS]; /* when a stream gave its newest block */
+    uint64_t heard_us[TB_STREAMS];                   /* when a stream gave its newest block */
+    uint64_t sound_us[TB_STREAMS][TSB_COLUMNS_MOST]; /* and each column its newest reading within its range */
     uint32_t readings, trains, silences;
     uint32_t faults, refusal, refused; /* that the host was told */
     uint32_t samples_lost, blocks_dropped;
@@ -93,12 +103,13 @@ struct tb_board {
 };
 
 /* Begins: output off, nothing known of the finger. Returns 0 for a setup that no board can be: no stream or too many,
- * two of a kind, or columns, rates or scales that the protocol does not have. A profile that the encoder refuses only
- * keeps the board from encoding. `setup` and `hardware` outlive the board. */
+ * two of a kind, a range without a reading, or columns, rates or scales that the protocol does not have. A profile that
+ * the encoder refuses only keeps the board from encoding. `setup` and `hardware` outlive the board. */
 int tb_init(struct tb_board* board, const struct tb_setup* setup, const struct tb_hardware* hardware);
 
-/* Once round the main loop: hears, reads, encodes, says and plays. To be called every 2 ms or more often; a frame's
- * transforms take some 80 000 instructions. */
+/* Once round the main loop: hears, reads, encodes, says and plays. A block in which a column is pulled out is neither
+ * encoded nor said: its samples are lost, to the host as to the encoder. To be called every 2 ms or more often; a
+ * frame's transforms take some 80 000 instructions. */
 void tb_step(struct tb_board* board);
 
 /* Ends all output: until the next START of a host, and of a board that stands alone until power-off. */
