@@ -275,9 +275,12 @@ static void done(struct tb_board* board, const struct tsb_command* command) {
     (void)say(board, tsb_encode_done(board->frame, command->token, command->type, now_of(board)));
 }
 
+/* What stops from here on stands. */
 static void start(struct tb_board* board) {
-    const uint64_t now_us = now_of(board);
+    uint64_t now_us;
     uint32_t i, k;
+    *(volatile uint32_t*)&board->stopped = 0U;
+    now_us = now_of(board);
     for (i = 0; i < TB_STREAMS; ++i) {
         board->sequence[i] = 0U;
         board->index[i] = 0U;
@@ -293,7 +296,6 @@ static void start(struct tb_board* board) {
     board->status_us = now_us;
     board->asked_us = now_us;
     board->running = 1U;
-    *(volatile uint32_t*)&board->stopped = 0U;
     if (board->mode != TSB_MODE_ENCODE) return;
     board->profile_refusal = begin_encoder(board);
     if (board->rested || now_us >= board->quiet_us + REST_US) te_rested(&board->encoder);
@@ -420,8 +422,8 @@ static void answer(struct tb_board* board, const struct tsb_command* command) {
             answer_stream(board, command);
             break;
         case TSB_START:
-            done(board, command);
             start(board);
+            done(board, command);
             break;
         case TSB_STOP:
             board->running = 0U;
