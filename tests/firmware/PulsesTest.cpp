@@ -1,6 +1,7 @@
 // The edges that a board's timer plays are those of its train (hazards H1 and H5).
 #include <cmath>
 #include <gtest/gtest.h>
+#include <utility>
 
 #include "core/base/Random.h"
 #include "resources/firmware/tactile_board/tactile_pulses.h"
@@ -89,6 +90,78 @@ TEST(Pulses, AreNoneOfATrainThatNoTimerPlays) {
         std::uint32_t ticks = 0;
         EXPECT_EQ(tp_next(&pulses, &level, &ticks), 0);
         EXPECT_EQ(level, 0);
+    }
+}
+
+/// A timer and an output, of which a program has one each.
+struct Played {
+    std::uint32_t after = 0;
+    float level = 0;
+    std::vector<Edge> edges;
+};
+Played played;
+
+TEST(Pulses, ArePlayedTrainAfterTrainAndEndAtOnce) {
+    RecordProperty("hazard", "H2");
+    constexpr double kPerUs = 25;
+    const tp_player zeroed{[](std::uint32_t ticks) { played.after = ticks; },
+                           [](float level) { played.level = level; },
+                           static_cast<float>(kPerUs),
+                           {},
+                           {},
+                           0,
+                           0};
+    Random random(6, "player");
+    for (int k = 0; k < 2000; ++k) {
+        SCOPED_TRACE(testing::Message() << "train " << k);
+        tp_player player = zeroed;
+        played = {};
+        double ticks = 0;
+        const auto now_us = [&] { return static_cast<std::uint64_t>(ticks / kPerUs); };
+        // Until the timer stops, or for so many of its interrupts.
+        const auto run = [&](std::uint64_t most) {
+            while (played.after > 0 && most-- > 0) {
+                if (played.level != 0) played.edges.push_back({played.level, static_cast<double>(played.after)});
+                ticks += std::exchange(played.after, 0);
+                tp_go_on(&player, now_us());
+            }
+        };
+        te_train first = drawn(random), second = drawn(random), third = drawn(random);
+        first.onset_ns = static_cast<std::int64_t>(random.below(5000)) * 1000;
+        second.onset_ns = third.onset_ns = 0;
+        te_train impossible = second;
+        impossible.width_us = 0;
+        EXPECT_EQ(tp_play(&player, &impossible, 0), 0);
+        EXPECT_EQ(played.after, 0U);
+        EXPECT_EQ(tp_play(&player, &first, 0), 1);
+        EXPECT_EQ(played.level, 0) << "before its onset";
+        EXPECT_EQ(played.after, std::max<double>(1, static_cast<double>(first.onset_ns) / 1000 * kPerUs));
+        EXPECT_EQ(tp_play(&player, &impossible, 0), 0);
+        EXPECT_EQ(tp_play(&player, &second, 0), 1) << "it waits";
+        EXPECT_EQ(tp_play(&player, &third, 0), 0) << "two are there";
+        std::vector<Edge> expected;
+        for (const auto& train : {first, second}) {
+            for (const auto& edge : edgesOf(train, static_cast<float>(kPerUs)))
+                if (edge.level != 0) expected.push_back(edge);
+        }
+        const bool cut = k % 2 == 0;
+        run(cut ? 1 + random.below(2 * expected.size()) : 100'000);
+        if (cut) {
+            EXPECT_EQ(tp_play(&player, nullptr, now_us()), 1);
+            expected.resize(std::min(expected.size(), played.edges.size()));
+        }
+        EXPECT_EQ(played.level, 0);
+        EXPECT_EQ(played.after, 0U);
+        tp_go_on(&player, now_us());  // an interrupt that was on its way
+        EXPECT_EQ(played.level, 0);
+        EXPECT_EQ(played.after, 0U);
+        ASSERT_EQ(played.edges.size(), expected.size());
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            EXPECT_EQ(played.edges[i].level, expected[i].level);
+            EXPECT_EQ(played.edges[i].ticks, expected[i].ticks);
+        }
+        EXPECT_EQ(tp_play(&player, &third, now_us()), 1) << "and it plays again";
+        EXPECT_GT(played.after, 0U);
     }
 }
 

@@ -200,65 +200,28 @@ static int read(void* context, struct tb_samples* samples) {
 
 /* The stimulator -------------------------------------------------------------------------------------------------- */
 
-static struct tp_pulses pulses;
-static struct te_train waiting; /* begins after the one that is played */
-static volatile uint32_t plays, waits;
-
 __attribute__((weak)) void set_output(float level) { LAMPS = level != 0.0F; }
 
 static void timer_after(uint32_t after) {
     PULSES_CONTROL = 0U;
-    PULSES_RELOAD = after > 0U ? after : 1U;
-    PULSES_VALUE = after > 0U ? after : 1U;
+    if (after == 0U) return;
+    PULSES_RELOAD = after;
+    PULSES_VALUE = after;
     PULSES_CONTROL = 9U; /* runs, and interrupts */
 }
 
-/* From now to the onset; a train begins at most 5 ms ahead. */
-static int begin(const struct te_train* train) {
-    const int64_t ahead_us = train->onset_ns / 1000 - (int64_t)now_us((void*)0);
-    if (!tp_begin(&pulses, train, (float)TICKS_PER_US)) return 0;
-    plays = 1U;
-    timer_after(ahead_us > 0 && ahead_us < 1000000 ? (uint32_t)ahead_us * TICKS_PER_US : 0U);
-    return 1;
-}
+static struct tp_player player = {.timer_after = timer_after, .set_output = set_output, .ticks_per_us = TICKS_PER_US};
 
-/* The pulses' timer. */
+/* The pulses' timer, which would go round. */
 void play_on(void) {
-    float level;
-    uint32_t after;
     PULSES_CONTROL = 0U;
     PULSES_CLEAR = 1U;
-    if (!plays) return;
-    if (tp_next(&pulses, &level, &after)) {
-        timer_after(after);
-        set_output(level);
-        return;
-    }
-    set_output(0.0F);
-    plays = 0U;
-    if (waits) {
-        waits = 0U;
-        (void)begin(&waiting);
-    }
+    tp_go_on(&player, now_us((void*)0));
 }
 
 static int play(void* context, const struct te_train* train) {
     const uint32_t masked = mask();
-    int good = 1;
-    (void)context;
-    if (!train) {
-        PULSES_CONTROL = 0U;
-        set_output(0.0F);
-        plays = 0U;
-        waits = 0U;
-    } else if (!plays) {
-        good = begin(train);
-    } else if (!waits) {
-        waiting = *train;
-        waits = 1U;
-    } else {
-        good = 0;
-    }
+    const int good = tp_play(&player, train, now_us(context));
     unmask(masked);
     return good;
 }

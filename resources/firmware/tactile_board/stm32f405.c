@@ -260,13 +260,9 @@ static int read(void* context, struct tb_samples* samples) {
 
 /* The stimulator -------------------------------------------------------------------------------------------------- */
 
-static struct tp_pulses pulses;
-static struct te_train waiting; /* begins after the one that is played */
-static volatile uint32_t plays, waits;
-
 static void set_output(float level) {
     float size = (level < 0.0F ? -level : level) * (4095.0F / FULL_SCALE);
-    if (size > 4095.0F) size = 4095.0F; /* by rounding only: begin() has judged it */
+    if (size > 4095.0F) size = 4095.0F; /* by rounding only: can_give() has judged it */
     if (!(size > 0.0F)) {
         GPIOB(BSRR) = 0x30000000U; /* off, not negative */
         DAC(0x08U) = 0U;
@@ -278,62 +274,34 @@ static void set_output(float level) {
 
 static void timer_after(uint32_t ticks) {
     TIM5(TIM_CR1) = 0U;
+    if (ticks == 0U) return;
     TIM5(TIM_CNT) = 0U;
     TIM5(TIM_ARR) = ticks > 1U ? ticks - 1U : 1U;
     TIM5(TIM_SR) = 0U;
     TIM5(TIM_CR1) = 9U; /* once */
 }
 
-static int can_give(float level) {
+static struct tp_player player = {
+    .timer_after = timer_after, .set_output = set_output, .ticks_per_us = PULSE_TICKS_PER_US};
+
+void on_pulse(void) {
+    TIM5(TIM_SR) = 0U;
+    tp_go_on(&player, now_us((void*)0));
+}
+
+static int is_given(float level) {
     const float size = level < 0.0F ? -level : level;
     return size >= LEAST && size <= MOST;
 }
 
-/* From now to the onset; a train begins at most 5 ms ahead. */
-static int begin(const struct te_train* train) {
-    const int64_t ahead_us = train->onset_ns / 1000 - (int64_t)now_us((void*)0);
-    if (!tp_begin(&pulses, train, (float)PULSE_TICKS_PER_US)) return 0;
-    if (!can_give(pulses.level[0]) || !can_give(pulses.level[2])) return 0;
-    plays = 1U;
-    timer_after(ahead_us > 0 && ahead_us < 1000000 ? (uint32_t)ahead_us * PULSE_TICKS_PER_US : 1U);
-    return 1;
-}
-
-void on_pulse(void) {
-    float level;
-    uint32_t ticks;
-    TIM5(TIM_SR) = 0U;
-    if (!plays) return;
-    if (tp_next(&pulses, &level, &ticks)) {
-        timer_after(ticks);
-        set_output(level);
-        return;
-    }
-    set_output(0.0F);
-    plays = 0U;
-    if (waits) {
-        waits = 0U;
-        (void)begin(&waiting);
-    }
+static int can_give(const struct te_train* train) {
+    struct tp_pulses pulses;
+    return tp_begin(&pulses, train, PULSE_TICKS_PER_US) && is_given(pulses.level[0]) && is_given(pulses.level[2]);
 }
 
 static int play(void* context, const struct te_train* train) {
     const uint32_t masked = mask();
-    int good = 1;
-    (void)context;
-    if (!train) {
-        TIM5(TIM_CR1) = 0U;
-        set_output(0.0F);
-        plays = 0U;
-        waits = 0U;
-    } else if (!plays) {
-        good = begin(train);
-    } else if (!waits) {
-        waiting = *train;
-        waits = 1U;
-    } else {
-        good = 0;
-    }
+    const int good = (!train || can_give(train)) && tp_play(&player, train, now_us(context));
     unmask(masked);
     return good;
 }

@@ -1,6 +1,7 @@
 #include "tactile_pulses.h"
 
 #define MOST_TICKS 4e9F
+#define MOST_AHEAD_US 1000000 /* of an onset; a train is handed out at most 5 ms ahead */
 
 /* MOST_TICKS and above, or what is no number: 0. */
 static uint32_t ticks_of(float us, float ticks_per_us) {
@@ -45,4 +46,50 @@ int tp_next(struct tp_pulses* pulses, float* level, uint32_t* ticks) {
         return 1;
     }
     return 0;
+}
+
+/* From now to the onset. */
+static int begin(struct tp_player* player, const struct te_train* train, uint64_t now_us) {
+    const int64_t ahead_us = train->onset_ns / 1000 - (int64_t)now_us;
+    uint32_t ticks = 0U;
+    if (!tp_begin(&player->pulses, train, player->ticks_per_us)) return 0;
+    if (ahead_us > 0 && ahead_us < MOST_AHEAD_US) ticks = ticks_of((float)ahead_us, player->ticks_per_us);
+    player->plays = 1U;
+    player->timer_after(ticks > 0U ? ticks : 1U);
+    return 1;
+}
+
+static void end(struct tp_player* player) {
+    player->set_output(0.0F);
+    player->plays = 0U;
+}
+
+int tp_play(struct tp_player* player, const struct te_train* train, uint64_t now_us) {
+    struct tp_pulses judged;
+    if (!train) {
+        player->timer_after(0U);
+        end(player);
+        player->waits = 0U;
+        return 1;
+    }
+    if (!player->plays) return begin(player, train, now_us);
+    if (player->waits || !tp_begin(&judged, train, player->ticks_per_us)) return 0;
+    player->waiting = *train;
+    player->waits = 1U;
+    return 1;
+}
+
+void tp_go_on(struct tp_player* player, uint64_t now_us) {
+    float level;
+    uint32_t ticks;
+    if (!player->plays) return;
+    if (tp_next(&player->pulses, &level, &ticks)) {
+        player->timer_after(ticks);
+        player->set_output(level);
+        return;
+    }
+    end(player);
+    if (!player->waits) return;
+    player->waits = 0U;
+    (void)begin(player, &player->waiting, now_us); /* which was judged when it came */
 }
