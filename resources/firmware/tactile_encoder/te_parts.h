@@ -37,7 +37,7 @@ int64_t te_ns(float seconds); /* up, to a whole microsecond */
 /* Spectrum (te_spectrum.c) */
 void te_spectrum_init(struct te_spectrum* spectrum, float rate_hz, uint32_t length, float low_hz, float top_hz);
 /* The real transform of 256 values in place: X0, X128, then real and imaginary part of X1 to X127, as CMSIS-DSP's
- * arm_rfft_fast_f32 packs them, which may stand here instead. `cosine`, `sine`: of 2 pi i / 256. */
+ * arm_rfft_fast_f32 packs them, which stands here with TE_CMSIS_DSP. `cosine`, `sine`: of 2 pi i / 256. */
 void te_rfft256(float* x, const float* cosine, const float* sine);
 /* Power below and in the band of roughness, both axes' sums, of the window from sample `first`. `undone`: multiplied by
  * the divisors again. */

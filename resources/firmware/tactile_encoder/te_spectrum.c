@@ -1,9 +1,11 @@
 /* One-sided power of a Hann window, axes summed: S[k] = 2 |X[k]|^2 / (fs sum w^2), times the width of a bin (science.md
  * section 2.3). Bin 0 and fs/2 never lie in a band: it begins at 5 Hz and ends below 0.45 fs. */
 #include "te_parts.h"
+#ifdef TE_CMSIS_DSP
+#include "arm_math.h"
+#endif
 
 #define PI 3.14159265F
-#define POINTS 128U /* complex */
 #define BIN_TOLERANCE 1e-6F
 
 /* cos(2 pi i / n), by symmetry from a sine between 0 and pi/2. */
@@ -33,6 +35,21 @@ void te_spectrum_init(struct te_spectrum* spectrum, float rate_hz, uint32_t leng
     if (!(top_hz > low_hz)) spectrum->rough = spectrum->last + 1U;
     spectrum->scale = 2.0F / (rate_hz * 0.375F * (float)length) * width; /* the sum of w^2 is 3 N / 8 */
 }
+
+#ifdef TE_CMSIS_DSP
+/* Its result lies in a second buffer. */
+void te_rfft256(float* x, const float* cosine, const float* sine) {
+    static arm_rfft_fast_instance_f32 instance;
+    static float into[TE_WINDOW];
+    uint32_t i;
+    (void)cosine;
+    (void)sine;
+    if (instance.fftLenRFFT != TE_WINDOW) (void)arm_rfft_fast_init_f32(&instance, TE_WINDOW);
+    arm_rfft_fast_f32(&instance, x, into, 0U);
+    for (i = 0; i < TE_WINDOW; ++i) x[i] = into[i];
+}
+#else
+#define POINTS 128U /* complex */
 
 static void swap(float* a, float* b) {
     const float kept = *a;
@@ -109,6 +126,7 @@ void te_rfft256(float* x, const float* cosine, const float* sine) {
     x[0] = even + odd;
     x[1] = even - odd;
 }
+#endif
 
 /* Another length: the sums as they stand. */
 static float direct(const struct te_spectrum* spectrum, uint32_t bin) {
