@@ -39,11 +39,14 @@ const std::vector<StreamInfo> kStreams{{StreamKind::Acceleration, StreamUnit::Me
 /// The board's ring of bookings and the bench's gate, on one clock and set up alike, and a body that takes the trains.
 class Rig {
 public:
-    explicit Rig(Dice& dice, const EncodingProfile& encoding = {}) : dice_(dice), gate_(clock_) {
+    explicit Rig(Dice& dice, EncodingProfile encoding = {}) : dice_(dice), gate_(clock_) {
         clock_.advanceTo(std::chrono::hours(1));
         output_.source.drive = dice.chance(0.5) ? Drive::Current : Drive::Voltage;
         output_.source.amplitudeMax = 1000;
-        output_.source.widthMin = Micros(1);
+        output_.source.amplitudeStep = dice.chance(0.3) ? 0 : single(dice.decade(0.001, 1));
+        output_.source.widthStep = Micros(kWidthSteps_us[dice.pick(4)]);
+        output_.source.widthMin = output_.source.widthStep * static_cast<double>(1 + dice.pick(2));
+        encoding.train.phaseWidth = Micros(onGrid_us(encoding.train.phaseWidth.count()));
         output_.source.compliance = Volts(dice.chance(0.3) ? 60 : 1000);
         const auto error = [&] { return Spread{static_cast<float>(dice.chance(0.3) ? 0 : dice.between(0, 0.06)), 0}; };
         const Spread width = error();
@@ -66,12 +69,22 @@ public:
         body_.fit({(output_.load.nominal.series * (atWorst_ ? 0.8 : dice.between(0.8, 1.2))).value(), 0, 0});
     }
 
+    /// As the stimulator can play it: on its steps of width and amplitude.
+    [[nodiscard]] te_train played(te_train train) const {
+        const auto step = static_cast<float>(output_.source.amplitudeStep);
+        train.width_us = static_cast<float>(onGrid_us(double{train.width_us}));
+        if (train.gap_us > 0) train.gap_us = static_cast<float>(onGrid_us(double{train.gap_us}));
+        if (step > 0) train.amplitude = std::floor(train.amplitude / step) * step;
+        return train;
+    }
     [[nodiscard]] std::int64_t now_ns() const { return clock_.now().count(); }
     void waitUntil(std::int64_t at_ns) { clock_.advanceTo(Instant(at_ns)); }
 
     /// The bench's word on a train that the board let out, and the referee's.
     void judge(const te_train& out) {
         const PulseTrain train = trainOf(out);
+        if (const double step = output_.source.amplitudeStep; step > 0)
+            ASSERT_NEAR(std::remainder(double{out.amplitude} / step, 1), 0, 0.02) << "between two steps";
         const auto approved = gate_.approve({train, Seconds(double{out.interval_s}), clock_.now()});
         ASSERT_TRUE(approved) << "the bench's gate refuses what the board lets out: " << approved.error().message;
         const auto& accuracy = output_.source.accuracy;
@@ -100,11 +113,18 @@ public:
     std::uint64_t trains = 0, close = 0;
 
 private:
+    static constexpr double kWidthSteps_us[] = {1, 2, 5, 10};
+    [[nodiscard]] double onGrid_us(double us) const {
+        const double step = output_.source.widthStep.count();
+        return std::max(output_.source.widthMin.count(), std::round(us / step) * step);
+    }
     static double single(double x) { return static_cast<float>(x); }
     [[nodiscard]] PulseTrain trainOf(const te_train& out) const {
         PulseTrain train;
-        train.amplitude = profile.current_source != 0 ? Amplitude(Milliamps(double{out.amplitude}))
-                                                      : Amplitude(Volts(double{out.amplitude}));
+        // The step as the bench has it, of which the board's is single.
+        const double step = output_.source.amplitudeStep;
+        const double level = step > 0 ? std::round(double{out.amplitude} / step) * step : double{out.amplitude};
+        train.amplitude = profile.current_source != 0 ? Amplitude(Milliamps(level)) : Amplitude(Volts(level));
         train.shape = static_cast<PulseShape>(out.shape);
         train.polarity = out.negative != 0 ? Polarity::Negative : Polarity::Positive;
         train.phaseWidth = Micros(double{out.width_us});
@@ -160,10 +180,10 @@ te_train randomTrain(Dice& dice, const te_profile& profile, std::int64_t now_ns)
 void sequenceOfTrains(Dice& dice, std::uint64_t& trains, std::uint64_t& refused, std::uint64_t& close) {
     Rig rig(dice);
     te_gate gate{};
-    te_train train = randomTrain(dice, rig.profile, rig.now_ns());
+    te_train train = rig.played(randomTrain(dice, rig.profile, rig.now_ns()));
     const int commands = 2 + dice.pick(10);
     for (int k = 0; k < commands && !testing::Test::HasFatalFailure(); ++k) {
-        if (dice.chance(0.4)) train = randomTrain(dice, rig.profile, rig.now_ns());
+        if (dice.chance(0.4)) train = rig.played(randomTrain(dice, rig.profile, rig.now_ns()));
         train.onset_ns = rig.now_ns();
         if (te_train_judge(&rig.profile, &gate, &train, rig.now_ns()) == TE_ACCEPTED) {
             te_train_book(&rig.profile, &gate, &train, rig.now_ns());
