@@ -132,7 +132,7 @@ public:
     void keepBoardTime() noexcept override { encoding_.keepBoardTime(); }
     std::uint64_t lostOnTheWay() const noexcept override { return encoding_.lostOnTheWay(); }
     bool wantsProfile() const noexcept override { return true; }
-    Result<void> load(std::string_view bytes) override {
+    Result<void> load(std::string_view bytes, bool rested) override {
         te_profile profile{};
         EXPECT_EQ(te_read_profile(&profile, reinterpret_cast<const std::uint8_t*>(bytes.data()),
                                   static_cast<std::uint32_t>(bytes.size())),
@@ -140,7 +140,7 @@ public:
         hash_ = profile.hash;
         if (profiled_) profiled_(profile);
         profile.hash = te_hash(&profile);
-        return dynamic_cast<EncoderLoader&>(board_).load(profileBytes(profile));
+        return dynamic_cast<EncoderLoader&>(board_).load(profileBytes(profile), rested);
     }
 
 private:

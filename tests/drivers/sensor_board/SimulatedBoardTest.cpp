@@ -68,7 +68,7 @@ public:
         auto finger = opened("sim:finger?material=P120&force=2N", clock_).value().sensor;
         const auto profile = profileFor(*finger);
         const auto board = sensorboard::FirmwareBoard::make(std::move(finger), "EMU-1", "1", clock_, 0).value();
-        board->restart(&profile);
+        board->restart(&profile, true);
         line_ = board->line();
     }
     Transport& line() override { return *line_; }
