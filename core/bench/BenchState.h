@@ -68,6 +68,7 @@ struct Bench::State {
     [[nodiscard]] const ReportingDevice* reportingDevice(Role role) const noexcept;
 
     BenchConfig config;
+    const Instant opening{config.clock->now()};
     BenchCalibration calibration{config};
     std::unique_ptr<UnitRecord> record;  // the stimulator's record, if one is kept; outlives the parts that write to it
     BenchNotes notes;
@@ -90,7 +91,7 @@ struct Bench::State {
     BenchLevels levels{config, output, calibration, terms, notes, gate, time, loop};
 
 private:
-    /// True if no train came out in the last 8 s.
+    /// True if certainly no train came out in the last 8 s.
     [[nodiscard]] bool hasRested() const noexcept;
     [[nodiscard]] Result<void> lookIntoFault();
     [[nodiscard]] Result<void> letReportsBeJudged();

@@ -507,6 +507,26 @@ TEST_F(BoardEncodesBench, ByHandItsProfileIsNotAskedForAndItsTrainsAreNotPlayed)
     EXPECT_TRUE(playsOne());
 }
 
+TEST_F(BoardEncodesBench, OfARealStimulatorNobodyKnowsWhatCameOutBeforeTheBenchWasOpened) {
+    RecordProperty("hazard", "H4");
+    profileByLoad();
+    for (const bool real : {false, true}) {
+        looksReal_ = real;
+        auto& finger = openWith<WritableFinger>({true, 0});
+        std::vector<bool> said;
+        finger.onLoad = [&said](bool rested) { said.push_back(rested); };
+        for (const auto* load : {"2 kohm", "1 kohm"}) {
+            EXPECT_TRUE(bench_->wait(Seconds(said.empty() ? 0.1 : 8)).has_value());
+            static_cast<void>(bench_->devices().load->fitLoad(load));
+            ASSERT_TRUE(bench_->drive(DriveSource::Sensor).has_value());
+            const auto armed = bench_->arm({load, true, true, real ? bench_->armingText(parseLoad(load).value()) : ""});
+            ASSERT_TRUE(armed) << armed.error().message;
+            bench_->disarm();
+        }
+        EXPECT_THAT(said, testing::ElementsAre(!real, true));
+    }
+}
+
 TEST_F(BoardEncodesBench, AProfileIsWrittenIntoABoardThatTakesOneAndNeverWhileArmed) {
     RecordProperty("hazard", "H4");
     profileByLoad();
