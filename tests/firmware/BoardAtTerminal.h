@@ -19,6 +19,10 @@
 
 namespace tacto::test {
 
+inline constexpr const char* kNoBoard =
+    "gcc-arm-none-eabi, libnewlib-arm-none-eabi and qemu-system-arm are not all here: the board was not run as a "
+    "microcontroller runs it";
+
 class BoardAtTerminal {
 public:
     virtual ~BoardAtTerminal() = default;
