@@ -185,14 +185,14 @@ static int read(void* context, struct tb_samples* samples) {
         const uint32_t columns = setup.configuration[s].columns;
         const int touched = (uint32_t)(next_us[s] / 1000U) % 4000U >= 1000U;
         uint32_t i;
-        if (next_us[s] + (counts[s] - 1U) * intervals_us[s] > until) continue;
+        if (next_us[s] + (uint64_t)(counts[s] - 1U) * intervals_us[s] > until) continue;
         samples->stream = s;
         samples->count = counts[s];
         samples->lost = 0U;
         samples->first_us = next_us[s];
         samples->interval_ns = intervals_us[s] * 1000U;
         for (i = 0; i < counts[s] * columns; ++i) samples->raw[i] = felt(s, i % columns, touched);
-        next_us[s] += counts[s] * intervals_us[s];
+        next_us[s] += (uint64_t)counts[s] * intervals_us[s];
         return 1;
     }
     return 0;

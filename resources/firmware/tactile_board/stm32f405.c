@@ -205,7 +205,7 @@ void on_samples(void) {
     const uint64_t us = now_us((void*)0);
     DMA2(0x08U) = flags;
     if ((flags & 0x30U) == 0x30U) {
-        half_us[half_end % HALVES] = us - 250U * ROWS;
+        half_us[half_end % HALVES] = us - (uint64_t)250U * ROWS;
         ++half_end;
     }
     if ((flags & 0x30U) == 0U) return;
@@ -243,13 +243,13 @@ static int read(void* context, struct tb_samples* samples) {
     if (part == 0U) {
         samples->count = ROWS;
         samples->lost = lost * ROWS;
-        samples->first_us -= 250U * (ROWS - 1U);
+        samples->first_us -= (uint64_t)250U * (ROWS - 1U);
         samples->interval_ns = 250000U;
         for (i = 0; i < ROWS * 3U; ++i) samples->raw[i] = rows[i / 3U * CHANNELS + i % 3U];
     } else {
         samples->count = 1U;
         samples->lost = lost;
-        samples->first_us -= 125U * (ROWS - 1U); /* the middle of the twenty */
+        samples->first_us -= (uint64_t)125U * (ROWS - 1U); /* the middle of the twenty */
         samples->interval_ns = 5000000U;
         if (part == 2U) samples->raw[0] = mean_of(3U);
         for (i = 0; part == 1U && i < 8U; ++i) samples->raw[i] = mean_of(4U + i);

@@ -1,4 +1,6 @@
 /* The streams: acceleration band-passed and divided by force, force with its contact, taxels handed on. */
+#include <stddef.h>
+
 #include "te_parts.h"
 
 #define PI 3.14159265F
@@ -35,7 +37,7 @@ static void design(float* filter, float rate_hz, float top_hz) {
         /* (twice + p) / (twice - p) */
         const float pole_re = (twice * twice - re * re - im * im) / size2;
         const float pole_im = 2.0F * twice * im / size2;
-        filter[3U * i] = -2.0F * pole_re;
+        filter[3U * (size_t)i] = -2.0F * pole_re;
         filter[3U * i + 1U] = pole_re * pole_re + pole_im * pole_im;
         gain /= size2;
     }
@@ -190,7 +192,7 @@ static void filter_sample(struct te_state* state, const float* sample) {
     uint32_t axis;
     for (axis = 0; axis < state->profile.axes; ++axis) {
         float* const z = a->z[axis];
-        const float x = sample[axis] - a->origin[axis];
+        const float x = sample[axis] - a->origin[axis]; /* NOLINT(clang-analyzer-core*): it has all axes */
         const float high = x + z[0];
         const float scaled = f[2] * high;
         const float low = scaled + z[2];
@@ -258,7 +260,7 @@ static void make_room(struct te_state* state) {
 static int plausible(const float* sample, uint32_t columns, float most) {
     uint32_t i;
     for (i = 0; i < columns; ++i) {
-        if (!(fabsf(sample[i]) <= most)) return 0;
+        if (!(fabsf(sample[i]) <= most)) return 0; /* NOLINT(clang-analyzer-core*): scale() has set it */
     }
     return 1;
 }
@@ -355,6 +357,7 @@ uint32_t te_samples(struct te_state* state, enum te_stream stream, int64_t first
     if (!state->accepted || first_ns < 0 || first_ns > TE_LAST_NS || count > TE_BLOCK) return 0U;
     columns = columns_of(&state->profile, stream);
     if (columns == 0U) return 0U;
-    for (i = 0; i < count; ++i) push(state, stream, first_ns + (int64_t)i * step_ns, values + i * columns, columns);
+    for (i = 0; i < count; ++i)
+        push(state, stream, first_ns + (int64_t)i * step_ns, values + (size_t)i * columns, columns);
     return count;
 }

@@ -1,5 +1,7 @@
 /* One-sided power of a Hann window, axes summed: S[k] = 2 |X[k]|^2 / (fs sum w^2), times the width of a bin (science.md
  * section 2.3). Bin 0 and fs/2 never lie in a band: it begins at 5 Hz and ends below 0.45 fs. */
+#include <stddef.h>
+
 #include "te_parts.h"
 #ifdef TE_CMSIS_DSP
 #include "arm_math.h"
@@ -64,8 +66,8 @@ static void reverse(float* x) {
     for (i = 0; i < POINTS - 1U; ++i) {
         uint32_t bit = POINTS / 2U;
         if (i < j) {
-            swap(x + 2U * i, x + 2U * j);
-            swap(x + 2U * i + 1U, x + 2U * j + 1U);
+            swap(x + 2U * (size_t)i, x + 2U * (size_t)j);
+            swap(x + 2U * (size_t)i + 1U, x + 2U * (size_t)j + 1U);
         }
         while (j & bit) {
             j ^= bit;
@@ -92,10 +94,10 @@ static void transform(float* x, const float* cosine, const float* sine) {
         const uint32_t stride = POINTS / half; /* in the table of 2 POINTS */
         uint32_t k;
         for (k = 0; k < half; ++k) {
-            const float c = cosine[k * stride];
-            const float s = sine[k * stride];
+            const float c = cosine[(size_t)k * stride];
+            const float s = sine[(size_t)k * stride];
             uint32_t i;
-            for (i = k; i < POINTS; i += 2U * half) butterfly(x + 2U * i, x + 2U * (i + half), c, s);
+            for (i = k; i < POINTS; i += 2U * half) butterfly(x + 2U * (size_t)i, x + 2U * (size_t)(i + half), c, s);
         }
     }
 }
@@ -121,7 +123,7 @@ void te_rfft256(float* x, const float* cosine, const float* sine) {
     transform(x, cosine, sine);
     even = x[0];
     odd = x[1];
-    for (k = 1; k < POINTS / 2U; ++k) split(x + 2U * k, x + 2U * (POINTS - k), cosine[k], sine[k]);
+    for (k = 1; k < POINTS / 2U; ++k) split(x + 2U * (size_t)k, x + 2U * (size_t)(POINTS - k), cosine[k], sine[k]);
     x[POINTS + 1U] = -x[POINTS + 1U]; /* of the middle bin, whose twiddle is -i */
     x[0] = even + odd;
     x[1] = even - odd;
@@ -147,7 +149,7 @@ static float power_of(const struct te_spectrum* spectrum, uint32_t from, uint32_
     float sum = 0.0F;
     uint32_t k;
     for (k = from; k < to; ++k) {
-        const float* x = spectrum->work + 2U * k;
+        const float* x = spectrum->work + 2U * (size_t)k;
         sum += spectrum->length == TE_WINDOW ? x[0] * x[0] + x[1] * x[1] : direct(spectrum, k);
     }
     return sum * spectrum->scale;
