@@ -71,10 +71,10 @@ public:
 
     /// As the stimulator can play it: on its steps of width and amplitude.
     [[nodiscard]] te_train played(te_train train) const {
-        const auto step = static_cast<float>(output_.source.amplitudeStep);
+        const double step = output_.source.amplitudeStep;
         train.width_us = static_cast<float>(onGrid_us(double{train.width_us}));
         if (train.gap_us > 0) train.gap_us = static_cast<float>(onGrid_us(double{train.gap_us}));
-        if (step > 0) train.amplitude = std::floor(train.amplitude / step) * step;
+        if (step > 0) train.amplitude = static_cast<float>(std::floor(double{train.amplitude} / step) * step);
         return train;
     }
     [[nodiscard]] std::int64_t now_ns() const { return clock_.now().count(); }
