@@ -71,7 +71,8 @@ public:
         TerminalRig rig(path_);
         PlainHost host(rig);
         for (int asked = 0; asked < 100 && host.told.empty(); ++asked) {
-            host.write(sensorboard::encodeCommand(sensorboard::Command::Hello, 1));
+            // Its token is no other command's: an answer may come late.
+            host.write(sensorboard::encodeCommand(sensorboard::Command::Hello, 251));
             host.listen(Seconds(0.2));
         }
     }

