@@ -125,7 +125,7 @@ TEST(LslRun, WhatCannotBeBeginsNothing) {
     ::setenv("TACTOSCOPE_LSL", "/nowhere/liblsl.so", 1);
     refusedSaying({"--lsl", "--realtime"}, 3, "a file liblsl.so of liblsl 1.13 or newer is expected");
     ::setenv("TACTOSCOPE_LSL", TACTO_HOSTILE_LSL, 1);
-    refusedSaying({"--lsl"}, 2, "real time (--realtime) is expected");
+    refusedSaying({"--lsl"}, 2, "real time (--realtime, or the session’s own pace) is expected");
     refusedSaying({"--realtime", "--lsl-markers", ""}, 2, "the name of a stream is expected");
     refusedSaying({"--realtime", "--lsl-markers", "Tactoscope-markers"}, 2, "another program's is expected");
     ::unsetenv("TACTOSCOPE_LSL");
@@ -150,11 +150,10 @@ TEST(LslRun, ARehearsalSendsItsMarkersAlone) {
     ASSERT_TRUE(reader) << reader.error().message;
     const auto events = reader->events();
     ASSERT_TRUE(events);
-    // Events of the bench itself, among them a fault, have no name in them.
-    const auto marked = std::ranges::count_if(
-        *events, [](const auto& event) { return hasMarker(event.name) && event.body.contains("name"); });
+    const auto marked = std::ranges::count_if(*events, [](const auto& event) { return hasMarker(event.name); });
     EXPECT_GT(marked, 3);
-    EXPECT_EQ(tally["markers"], marked);
+    // A bench that was too slow writes a fault of its own, which has no marker.
+    EXPECT_IN_TIME(tally["markers"] == marked);
 }
 
 }  // namespace
