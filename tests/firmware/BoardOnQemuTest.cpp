@@ -1,5 +1,6 @@
 // A whole board as its maker compiles it for a Cortex-M, under QEMU behind a pseudo-terminal: its encoder makes of its
 // samples what the same code makes of them here, to the last bit. What it passes as any board: BoardAtTerminalTest.cpp.
+#include <algorithm>
 #include <bit>
 #include <gtest/gtest.h>
 #include <map>
@@ -81,6 +82,24 @@ void expectWithin(FieldReader& in, const te_profile& profile, std::uint64_t& ons
     EXPECT_TRUE(in.whole());
 }
 
+/// Sends what a board says from a start to its third train into `told`; returns whether nothing of it was lost.
+bool heardWhole(PlainHost& host) {
+    host.told.clear();
+    static_cast<void>(host.ask(Command::Start));
+    const bool heard = host.hear(Reply::Train, 3);
+    static_cast<void>(host.ask(Command::Stop));
+    std::map<int, std::uint32_t> seen;
+    return heard && std::ranges::all_of(host.told, [&](const Told& one) {
+               if (one.is(Reply::Data)) {
+                   const auto block = readBlock(one.frame());
+                   return block && block->sequence == seen[-1 - block->stream]++;
+               }
+               if (!one.is(Reply::Reading) && !one.is(Reply::Train)) return true;
+               FieldReader in(one.payload);
+               return in.u32() == seen[one.type]++;
+           });
+}
+
 }  // namespace
 
 TEST(BoardOnQemu, EncodesItsSamplesToTheBitsThatTheSameCodeMakesHere) {
@@ -94,9 +113,10 @@ TEST(BoardOnQemu, EncodesItsSamplesToTheBitsThatTheSameCodeMakesHere) {
     EXPECT_EQ(state.refusal, TE_ACCEPTED);
     EXPECT_EQ(state.layout, TE_LAYOUT);
     EXPECT_EQ(state.hash, profile.hash);
-    static_cast<void>(host.ask(Command::Start));
-    ASSERT_IN_TIME(host.hear(Reply::Train, 3));
-    static_cast<void>(host.ask(Command::Stop));
+    // A computer with too much to do loses something of a line in real time; then the board begins anew.
+    bool whole = false;
+    for (int attempt = 0; attempt < 5 && !whole; ++attempt) whole = heardWhole(host);
+    ASSERT_IN_TIME(whole);
 
     EncoderHere here;
     std::map<int, std::uint32_t> seen;
