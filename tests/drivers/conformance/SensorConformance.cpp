@@ -64,9 +64,12 @@ TEST_P(SensorConformance, RatesAreThoseDeclared) {
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
         const auto& t = blocks_[i].t_s;
         ASSERT_IN_TIME(t.size() > 2U);
-        const double rate = static_cast<double>(t.size() - 1) / (t.back() - t.front());
-        // A board whose line was not read in time drops blocks.
-        EXPECT_IN_TIME(std::abs(rate / device().streams()[i].rate_hz - 1) <= 0.02) << rate << " Hz";
+        std::vector<double> steps;
+        for (std::size_t k = 1; k < t.size(); ++k) steps.push_back(t[k] - t[k - 1]);
+        // By the median step: a board whose line was not read in time drops blocks.
+        const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+        std::ranges::nth_element(steps, middle);
+        EXPECT_NEAR(1 / *middle, device().streams()[i].rate_hz, 0.02 * device().streams()[i].rate_hz);
     }
 }
 
