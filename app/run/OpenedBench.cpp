@@ -55,7 +55,7 @@ Result<void> loadBoard(const BenchOrder& order, DeviceSet& devices) {
     setup.load = LoadRange::declared(*load);
     setup.ceilings = order.profile.ceilings;
     const auto made = profileForBoard(*devices.sensor, order.profile, setup);
-    // Nobody knows what a real stimulator delivered a moment ago.
+    // What a real stimulator delivered before is not known.
     if (made) return loader->load(made->bytes, devices.stimulator->identity().simulated);
     return fail(made.error().code, "the profile \"{}\" is not for {}, which encodes: {}", order.profile.name,
                 devices.sensor->identity().name, made.error().message);

@@ -209,7 +209,7 @@ Result<void> Bench::State::health() const {
     return {};
 }
 
-/// A check pulse is not counted. Nobody knows what a real device delivered before this bench was opened.
+/// A check pulse is not counted. What a real device delivered before this bench was opened is not known.
 bool Bench::State::hasRested() const noexcept {
     constexpr Instant kRest = std::chrono::seconds(8);
     const Instant since = time.now() - kRest;

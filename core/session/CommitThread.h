@@ -33,7 +33,7 @@ public:
 private:
     void run();
 
-    mutable std::mutex mutex_;
+    std::mutex mutex_;
     std::condition_variable changed_;
     Job job_;  // guarded by mutex_, like the two below; not empty while the job waits or runs
     Result<void> result_;

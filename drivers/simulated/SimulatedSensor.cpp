@@ -13,10 +13,9 @@ constexpr double kForceDrift_N_s = 0.05;  // newtons per second during the fault
 constexpr double kPressureDrift_Pa_s = 500;
 constexpr double kTaxelOffset_Pa = 200;  // largest zero offset of a taxel
 
-/// `perUnit`: 1 / step, since a division takes longer than the rest.
-double quantised(double value, double step, double perUnit, double limit) noexcept {
+double quantised(double value, double step, double limit) noexcept {
     const double bounded = value > limit ? limit : (value < -limit ? -limit : value);
-    return static_cast<double>(static_cast<std::int64_t>(bounded * perUnit + (bounded < 0 ? -0.5 : 0.5))) * step;
+    return static_cast<double>(static_cast<std::int64_t>(bounded / step + (bounded < 0 ? -0.5 : 0.5))) * step;
 }
 }  // namespace
 
@@ -96,10 +95,9 @@ std::array<double, 3> SimulatedSensor::shaken() {
 void SimulatedSensor::sampleFast(SampleBlock& block) {
     const auto acceleration = settings_.onMotor ? shaken() : felt();
     const double noise = settings_.noise_m_s2;
-    const double perLsb = 1 / lsb_;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double value = acceleration[axis] + noise * fastNoise_.normal();
-        const double seen = quantised(value, lsb_, perLsb, settings_.range_g * kGravity);
+        const double seen = quantised(value, lsb_, settings_.range_g * kGravity);
         if (!stuck_) lastAcceleration_[axis] = seen;
     }
     const double t = opened_s_ + static_cast<double>(sample_) / settings_.rate_hz;
@@ -116,12 +114,12 @@ void SimulatedSensor::sampleSlow(SampleBlock& taxels, SampleBlock& force) {
     for (std::size_t i = 0; i < pressures.size(); ++i) {
         const double value = settings_.taxelGain * pressures[i] + offsets_[i] +
                              settings_.taxelNoise_Pa * slowNoise_.normal() + kPressureDrift_Pa_s * drifting_s_;
-        const double seen = quantised(value, settings_.taxelStep_Pa, 1 / settings_.taxelStep_Pa, 1e6);
+        const double seen = quantised(value, settings_.taxelStep_Pa, 1e6);
         if (!stuck_) lastPressures_[i] = seen;
     }
     const double value = settings_.forceGain * finger_->force_N() + settings_.forceNoise_N * slowNoise_.normal() +
                          kForceDrift_N_s * drifting_s_;
-    if (!stuck_) lastForce_ = quantised(value, settings_.forceStep_N, 1 / settings_.forceStep_N, 50);
+    if (!stuck_) lastForce_ = quantised(value, settings_.forceStep_N, 50);
     const double t = opened_s_ + static_cast<double>(sample_) / settings_.rate_hz;
     if (silent_ || packetLost(t)) return;
     taxels.t_s.push_back(t);
