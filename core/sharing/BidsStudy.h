@@ -75,7 +75,7 @@ struct BidsSession {
     SessionBasis basis = SessionBasis::Person;
     double days = kNaN;  ///< whole days since the person's first session
     std::string encoding;
-    std::string answers;  ///< the conditions in the order of the answer places, separated by commas
+    std::string answers;              ///< the conditions in the order of the answer places, separated by commas
     Ohms impedance{kNaN};             ///< at the beginning
     Milliamps low{kNaN}, high{kNaN};  ///< the personal range
     Ohms rangeImpedance{kNaN};        ///< when the range was found

@@ -66,7 +66,8 @@ public:
         if (clock_.started() && clock_.early_s(end, now) > SensorBoard::kMaxJump_s) return;
         clock_.observe(end, now);
         const auto before = samples_.samples();
-        track_.append(*block, [this](double us) { return clock_.toSession(us); }, samples_);
+        track_.append(
+            *block, [this](double us) { return clock_.toSession(us); }, samples_);
         require(samples_.samples() == before + block->count);
         require(samples_.values.size() == samples_.samples() * track_.configuration().columns.size());
         require(std::isfinite(samples_.t_s.back()) && samples_.t_s.back() <= toSeconds(now) + 1e-3);

@@ -80,7 +80,7 @@ public:
     }
 
 private:
-    static constexpr double kEarly_s = 0.001;   // the record's own time base
+    static constexpr double kEarly_s = 0.001;  // the record's own time base
 
     struct Row {
         const ExportTrain& train;
